@@ -196,6 +196,56 @@ CLI::App* add_names(CLI::App& app, Arguments& a) {
   return sub;
 }
 
+CLI::App* add_run(CLI::App& app, Arguments& a) {
+  CLI::App* sub = add_dialect_command(
+      app, a, "run", "run a program in the reference interpreter",
+      "Examples:\n  cnctrans run --dialect num part.xpi --trace moves.jsonl --vars -\n"
+      "  cnctrans run --dialect fagor part.pim --set P100=3 --skip 0 --max-events 1000\n"
+      "Exit status: 0 ran to the end, 1 refused or ended in an error, 2 wrong usage, 3 a limit stopped it.");
+  add_running(*sub, a);
+  sub->add_option("--trace", a.trace, "write the events, one JSON object a line (- is standard output)");
+  sub->add_option("--vars", a.vars, "write the final values of variables as JSON");
+  sub->add_option("--written", a.written, "folder for the programs that the program writes (OPEN, WRITE)")
+      ->type_name("DIR");
+  sub->add_flag("--force", a.force, "with --written: replace files that no run of this program has written");
+  return sub;
+}
+
+CLI::App* add_verify(CLI::App& app, Arguments& a) {
+  CLI::App* sub = app.add_subcommand("verify", "compare a program with a translation made by anyone");
+  sub->add_option("--from", a.from, "dialect of the source; else by extension and content");
+  sub->add_option("--to", a.to, "dialect of the translation; else by extension and content");
+  sub->add_option("files", a.inputs, "source, translation, and its further files")->required()->type_name("FILE");
+  sub->add_option("--target-machine", a.target_machine, "machine profile of the target");
+  add_exploring(*sub, a);
+  add_reading(*sub, a);
+  add_running(*sub, a);
+  sub->footer(
+      "Example:\n  cnctrans verify --from fagor --to sinumerik part.pim PART.MPF\n"
+      "Exit status: 0 both move alike, 1 one of them can't be read or run to its end, or nothing moves, 2 wrong "
+      "usage,\n"
+      "3 they differ.");
+  return sub;
+}
+
+CLI::App* add_ir(CLI::App& app, Arguments& a) {
+  CLI::App* sub =
+      add_dialect_command(app, a, "ir", "print the intermediate representation",
+                          "Example:\n  cnctrans ir --dialect num part.xpi\n"
+                          "Exit status: 0 no errors, 1 errors (it is printed all the same), 2 wrong usage.");
+  sub->add_flag("--json", a.json, "as JSON");
+  sub->add_flag("--places", a.places, "with source places");
+  sub->get_option("program")->required(false);
+  sub->add_option("--to", a.to, "the program as it is rewritten for this language");
+  sub->add_option("--target-machine", a.target_machine, "built-in name or profile file of the target machine");
+  sub->add_option("--after", a.after_pass,
+                  "with --to: behind this pass (docs/passes.md); each: behind every one that changes it");
+  sub->add_option("--pass", a.only_pass, "with --to: this pass alone");
+  add_structure(*sub, a);
+  sub->add_flag("--passes", a.list_passes, "list the passes in their order");
+  return sub;
+}
+
 }  // namespace
 
 std::vector<Command> declare(CLI::App& app, Arguments& a) {
@@ -213,47 +263,13 @@ std::vector<Command> declare(CLI::App& app, Arguments& a) {
   add_converting(*convert, a);
   convert->footer("Example:\n  cnctrans convert --from sinumerik --to num PART.MPF -o part.xpi");
   CLI::App* batch = add_batch(app, a);
-  CLI::App* run = add_dialect_command(
-      app, a, "run", "run a program in the reference interpreter",
-      "Examples:\n  cnctrans run --dialect num part.xpi --trace moves.jsonl --vars -\n"
-      "  cnctrans run --dialect fagor part.pim --set P100=3 --skip 0 --max-events 1000\n"
-      "Exit status: 0 ran to the end, 1 refused or ended in an error, 2 wrong usage, 3 a limit stopped it.");
-  add_running(*run, a);
-  run->add_option("--trace", a.trace, "write the events, one JSON object a line (- is standard output)");
-  run->add_option("--vars", a.vars, "write the final values of variables as JSON");
-  run->add_option("--written", a.written, "folder for the programs that the program writes (OPEN, WRITE)")
-      ->type_name("DIR");
-  run->add_flag("--force", a.force, "with --written: replace files that no run of this program has written");
-  CLI::App* verify = app.add_subcommand("verify", "compare a program with a translation made by anyone");
-  verify->add_option("--from", a.from, "dialect of the source; else by extension and content");
-  verify->add_option("--to", a.to, "dialect of the translation; else by extension and content");
-  verify->add_option("files", a.inputs, "source, translation, and its further files")->required()->type_name("FILE");
-  verify->add_option("--target-machine", a.target_machine, "machine profile of the target");
-  add_exploring(*verify, a);
-  add_reading(*verify, a);
-  add_running(*verify, a);
-  verify->footer(
-      "Example:\n  cnctrans verify --from fagor --to sinumerik part.pim PART.MPF\n"
-      "Exit status: 0 both move alike, 1 one of them can't be read or run to its end, or nothing moves, 2 wrong "
-      "usage,\n"
-      "3 they differ.");
+  CLI::App* run = add_run(app, a);
+  CLI::App* verify = add_verify(app, a);
   CLI::App* check = add_dialect_command(app, a, "check", "read programs and report",
                                         "Example:\n  cnctrans check --dialect sinumerik subs/*.SPF\n"
                                         "Exit status: 0 no errors, 1 errors, 2 wrong usage.",
                                         1 << 20);
-  CLI::App* ir = add_dialect_command(app, a, "ir", "print the intermediate representation",
-                                     "Example:\n  cnctrans ir --dialect num part.xpi\n"
-                                     "Exit status: 0 no errors, 1 errors (it is printed all the same), 2 wrong usage.");
-  ir->add_flag("--json", a.json, "as JSON");
-  ir->add_flag("--places", a.places, "with source places");
-  ir->get_option("program")->required(false);
-  ir->add_option("--to", a.to, "the program as it is rewritten for this language");
-  ir->add_option("--target-machine", a.target_machine, "built-in name or profile file of the target machine");
-  ir->add_option("--after", a.after_pass,
-                 "with --to: behind this pass (docs/passes.md); each: behind every one that changes it");
-  ir->add_option("--pass", a.only_pass, "with --to: this pass alone");
-  add_structure(*ir, a);
-  ir->add_flag("--passes", a.list_passes, "list the passes in their order");
+  CLI::App* ir = add_ir(app, a);
   CLI::App* list = app.add_subcommand("dialects", "list the dialects and built-in machines");
   list->add_flag("-q,--quiet", a.quiet, "dialects only");
   CLI::App* explain = app.add_subcommand("explain", "what a code of a message means, and what to do about it");

@@ -25,54 +25,60 @@ bool Writer::other_habits(const ir::Action& a, const CycleWords& words, const fa
   return false;
 }
 
+namespace {
+
+/// How each word of a cycle is addressed.
+struct TurningWord {
+  std::string_view cycle, parameter, address;
+};
+constexpr std::array turning_words = {TurningWord{"thread.chased", "x_end", "X"},
+                                      TurningWord{"thread.chased", "z_end", "Z"},
+                                      TurningWord{"thread.chased", "pitch", "K"},
+                                      TurningWord{"thread.chased", "cone", "EA"},
+                                      TurningWord{"thread.chased", "infeed_angle", "EB"},
+                                      TurningWord{"thread.chased", "exit", "R"},
+                                      TurningWord{"thread.chased", "depth", "P"},
+                                      TurningWord{"thread.chased", "finish_stock", "Q"},
+                                      TurningWord{"thread.chased", "starts", "F"},
+                                      TurningWord{"thread.chased", "passes", "S"},
+                                      TurningWord{"stock.blank", "first_label", "N"},
+                                      TurningWord{"stock.blank", "last_label", "N"},
+                                      TurningWord{"stock.blank", "stock_x", "I"},
+                                      TurningWord{"stock.blank", "stock_z", "K"},
+                                      TurningWord{"stock.blank", "step", "P"},
+                                      TurningWord{"stock.blank", "axial_step", "R"},
+                                      TurningWord{"stock.groove", "first_label", "N"},
+                                      TurningWord{"stock.groove", "last_label", "N"},
+                                      TurningWord{"stock.groove", "entry_angle", "EA"},
+                                      TurningWord{"stock.groove", "step", "P"},
+                                      TurningWord{"stock.groove", "axial_step", "R"},
+                                      TurningWord{"stock.groove", "limit_x", "X"},
+                                      TurningWord{"stock.groove", "limit_z", "Z"},
+                                      TurningWord{"stock.groove", "stock_x", "I"},
+                                      TurningWord{"stock.groove", "stock_z", "K"},
+                                      TurningWord{"stock.reentrant", "first_label", "N"},
+                                      TurningWord{"stock.reentrant", "last_label", "N"},
+                                      TurningWord{"stock.reentrant", "x_2", "X"},
+                                      TurningWord{"stock.reentrant", "z_2", "Z"},
+                                      TurningWord{"stock.reentrant", "step", "P"},
+                                      TurningWord{"stock.reentrant", "axial_step", "R"},
+                                      TurningWord{"stock.reentrant", "stock_x", "I"},
+                                      TurningWord{"stock.reentrant", "stock_z", "K"},
+                                      TurningWord{"stock.reentrant", "withdrawal", "ER"},
+                                      TurningWord{"stock.reentrant", "entry_angle", "EA"},
+                                      TurningWord{"stock.reentrant", "groove_feed", "EF"},
+                                      TurningWord{"groove.plunged", "second_edge", "D"},
+                                      TurningWord{"groove.plunged", "x_end", "X"},
+                                      TurningWord{"groove.plunged", "z_end", "Z"},
+                                      TurningWord{"groove.plunged", "slope_angle", "EA"},
+                                      TurningWord{"groove.plunged", "step", "P"},
+                                      TurningWord{"groove.plunged", "axial_step", "R"},
+                                      TurningWord{"groove.plunged", "base_dwell", "EF"}};
+
+}  // namespace
+
 /// G33, G63 to G66 in their own words; the points of a blank are the blocks that follow.
 bool Writer::turning_cycle(const ir::Action& a, const ir::NamedCycle& c) {
-  struct Row {
-    std::string_view cycle, parameter, address;
-  };
-  static constexpr std::array rows = {Row{"thread.chased", "x_end", "X"},
-                                      Row{"thread.chased", "z_end", "Z"},
-                                      Row{"thread.chased", "pitch", "K"},
-                                      Row{"thread.chased", "cone", "EA"},
-                                      Row{"thread.chased", "infeed_angle", "EB"},
-                                      Row{"thread.chased", "exit", "R"},
-                                      Row{"thread.chased", "depth", "P"},
-                                      Row{"thread.chased", "finish_stock", "Q"},
-                                      Row{"thread.chased", "starts", "F"},
-                                      Row{"thread.chased", "passes", "S"},
-                                      Row{"stock.blank", "first_label", "N"},
-                                      Row{"stock.blank", "last_label", "N"},
-                                      Row{"stock.blank", "stock_x", "I"},
-                                      Row{"stock.blank", "stock_z", "K"},
-                                      Row{"stock.blank", "step", "P"},
-                                      Row{"stock.blank", "axial_step", "R"},
-                                      Row{"stock.groove", "first_label", "N"},
-                                      Row{"stock.groove", "last_label", "N"},
-                                      Row{"stock.groove", "entry_angle", "EA"},
-                                      Row{"stock.groove", "step", "P"},
-                                      Row{"stock.groove", "axial_step", "R"},
-                                      Row{"stock.groove", "limit_x", "X"},
-                                      Row{"stock.groove", "limit_z", "Z"},
-                                      Row{"stock.groove", "stock_x", "I"},
-                                      Row{"stock.groove", "stock_z", "K"},
-                                      Row{"stock.reentrant", "first_label", "N"},
-                                      Row{"stock.reentrant", "last_label", "N"},
-                                      Row{"stock.reentrant", "x_2", "X"},
-                                      Row{"stock.reentrant", "z_2", "Z"},
-                                      Row{"stock.reentrant", "step", "P"},
-                                      Row{"stock.reentrant", "axial_step", "R"},
-                                      Row{"stock.reentrant", "stock_x", "I"},
-                                      Row{"stock.reentrant", "stock_z", "K"},
-                                      Row{"stock.reentrant", "withdrawal", "ER"},
-                                      Row{"stock.reentrant", "entry_angle", "EA"},
-                                      Row{"stock.reentrant", "groove_feed", "EF"},
-                                      Row{"groove.plunged", "second_edge", "D"},
-                                      Row{"groove.plunged", "x_end", "X"},
-                                      Row{"groove.plunged", "z_end", "Z"},
-                                      Row{"groove.plunged", "slope_angle", "EA"},
-                                      Row{"groove.plunged", "step", "P"},
-                                      Row{"groove.plunged", "axial_step", "R"},
-                                      Row{"groove.plunged", "base_dwell", "EF"}};
   const std::string_view code = c.name == "stock.blank"       ? "G64"
                                 : c.name == "stock.groove"    ? "G65"
                                 : c.name == "stock.reentrant" ? "G63"
@@ -101,9 +107,10 @@ bool Writer::turning_cycle(const ir::Action& a, const ir::NamedCycle& c) {
   std::vector<std::pair<std::string, ir::Value>> words = c.words;
   if (back && words.size() > 1) std::swap(words[0].second, words[1].second);
   for (const auto& [parameter, v] : words) {
-    const auto row = std::find_if(rows.begin(), rows.end(),
-                                  [&c, &p = parameter](const Row& r) { return r.cycle == c.name && r.parameter == p; });
-    if (row != rows.end()) text += ' ' + word(row->address, v, a.pos);
+    const auto row =
+        std::find_if(turning_words.begin(), turning_words.end(),
+                     [&c, &p = parameter](const TurningWord& r) { return r.cycle == c.name && r.parameter == p; });
+    if (row != turning_words.end()) text += ' ' + word(row->address, v, a.pos);
   }
   add(std::move(text), Rank::setting, a.pos);
   return true;

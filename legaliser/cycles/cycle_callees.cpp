@@ -69,6 +69,17 @@ bool local_variable(const Program& program, const VarRef& v) {
   });
 }
 
+static bool reads_local_variables(const CyclePtr& cycle, const Program& program) {
+  bool own = false;
+  each_word(cycle, [&](const ExprPtr& e) {
+    map_expr(e, [&](const ExprPtr& n) {
+      if (const auto* v = as_variable(n)) own = own || local_variable(program, *v);
+      return n;
+    });
+  });
+  return own;
+}
+
 std::optional<std::size_t> CyclePass::callee_of(const CallRoutine& call) const {
   if (call.computed || call.has_range || call.tail || call.optional) return std::nullopt;
   for (std::size_t i = 0; i < program_.routines.size(); ++i) {
@@ -76,6 +87,54 @@ std::optional<std::size_t> CyclePass::callee_of(const CallRoutine& call) const {
     if (r.name == call.routine && r.kind != RoutineKind::main) return i;
   }
   return std::nullopt;
+}
+
+/// A number or a name that no other routine has.
+void CyclePass::name_copy(CycleCallees::Copy& copy) {
+  RoutineName& name = copy.routine.name;
+  ++callees_.made;
+  if (name.text.empty()) {
+    std::int64_t number = name.number;
+    const auto taken = [this, &copy](std::int64_t n) {
+      return std::any_of(program_.routines.begin(), program_.routines.end(),
+                         [n](const Routine& r) { return r.name.number == n; }) ||
+             std::any_of(callees_.copies.begin(), callees_.copies.end(),
+                         [&copy, n](const auto& c) { return c.get() != &copy && c->routine.name.number == n; });
+    };
+    number += callees_.made;
+    while (taken(number)) ++number;
+    name.number = number;
+  } else {
+    name.text += "_" + std::to_string(callees_.made);
+  }
+}
+
+/// The routine as it is where the cycle of now is in force.
+CycleCallees::Copy& CyclePass::write_copy(std::size_t callee) {
+  callees_.copies.push_back(std::make_unique<CycleCallees::Copy>());
+  CycleCallees::Copy* copy = callees_.copies.back().get();
+  copy->original = callee;
+  copy->source = active_->source;
+  copy->native = active_->native;
+  copy->on_target = active_->on_target;
+  copy->maybe_on_target = active_->maybe_on_target;
+  copy->single = active_->single;
+  copy->routine = program_.routines[callee];
+  name_copy(*copy);
+  CyclePass inner(program_, copy->routine, context_, facts_, feeds_, callees_, stale_);
+  inner.active_ = active_;
+  inner.sense_ = sense_;  // this routine is taken apart just now: what holds throughout is not to be seen any more
+  inner.sense_.forget();
+  inner.surely_active_ = !touches_cycle(copy->routine.body);
+  inner.may_end_ = !inner.surely_active_;
+  inner.run();
+  copy->ended_after = !inner.active_;
+  copy->on_target_after = inner.active_ && inner.active_->on_target && !inner.active_->maybe_on_target;
+  copy->maybe_on_target_after = inner.active_ && inner.active_->maybe_on_target;
+  if (inner.active_) copy->height_after = inner.active_->height;
+  copy->left_height = inner.active_ && inner.active_->left_height;
+  copy->finished = true;
+  return *copy;
 }
 
 bool CyclePass::call_with_cycle(CallRoutine& call, const LineInfo& where, const Facts& facts) {
@@ -101,15 +160,8 @@ bool CyclePass::call_with_cycle(CallRoutine& call, const LineInfo& where, const 
                                "define the cycle again before the call");
     return true;
   }
-  bool own = false;
-  each_word(active_->source, [&](const ExprPtr& e) {
-    map_expr(e, [&](const ExprPtr& n) {
-      if (const auto* v = as_variable(n)) own = own || local_variable(program_, *v);
-      return n;
-    });
-  });
-  if (own && (call.level == CallLevel::new_level || !call.arguments.empty()) &&
-      !(active_->native && active_->on_target)) {
+  const bool sees_others = call.level == CallLevel::new_level || !call.arguments.empty();
+  if (sees_others && !(active_->native && active_->on_target) && reads_local_variables(active_->source, program_)) {
     context_.diagnostics.error(
         "TRN-331", where.span,
         "the points of this cycle lie in a subprogram that does not see the variables its words read",
@@ -134,46 +186,7 @@ bool CyclePass::call_with_cycle(CallRoutine& call, const LineInfo& where, const 
   });
   CycleCallees::Copy* copy = same == callees_.copies.end() ? nullptr : same->get();
   if (copy != nullptr && !copy->finished) return false;  // it calls itself
-  if (copy == nullptr) {
-    callees_.copies.push_back(std::make_unique<CycleCallees::Copy>());
-    copy = callees_.copies.back().get();
-    copy->original = *callee;
-    copy->source = active_->source;
-    copy->native = active_->native;
-    copy->on_target = active_->on_target;
-    copy->maybe_on_target = active_->maybe_on_target;
-    copy->single = active_->single;
-    copy->routine = program_.routines[*callee];
-    RoutineName& name = copy->routine.name;
-    ++callees_.made;
-    if (name.text.empty()) {
-      std::int64_t number = name.number;
-      const auto taken = [this, copy](std::int64_t n) {
-        return std::any_of(program_.routines.begin(), program_.routines.end(),
-                           [n](const Routine& r) { return r.name.number == n; }) ||
-               std::any_of(callees_.copies.begin(), callees_.copies.end(),
-                           [copy, n](const auto& c) { return c.get() != copy && c->routine.name.number == n; });
-      };
-      number += callees_.made;
-      while (taken(number)) ++number;
-      name.number = number;
-    } else {
-      name.text += "_" + std::to_string(callees_.made);
-    }
-    CyclePass inner(program_, copy->routine, context_, facts_, feeds_, callees_, stale_);
-    inner.active_ = active_;
-    inner.sense_ = sense_;  // this routine is taken apart just now: what holds throughout is not to be seen any more
-    inner.sense_.forget();
-    inner.surely_active_ = !touches_cycle(copy->routine.body);
-    inner.may_end_ = !inner.surely_active_;
-    inner.run();
-    copy->ended_after = !inner.active_;
-    copy->on_target_after = inner.active_ && inner.active_->on_target && !inner.active_->maybe_on_target;
-    copy->maybe_on_target_after = inner.active_ && inner.active_->maybe_on_target;
-    if (inner.active_) copy->height_after = inner.active_->height;
-    copy->left_height = inner.active_ && inner.active_->left_height;
-    copy->finished = true;
-  }
+  if (copy == nullptr) copy = &write_copy(*callee);
   call.routine = copy->routine.name;
   if (copy->ended_after) {
     active_.reset();

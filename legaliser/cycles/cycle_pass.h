@@ -390,6 +390,8 @@ class CyclePass {
   /// The points lie in the called routine, and the target's cycle needs to be defined or written out there: the call
   /// goes to a copy of it for this cycle. False: the call stays as it is.
   bool call_with_cycle(CallRoutine& call, const LineInfo& where, const Facts& facts);
+  void name_copy(CycleCallees::Copy& copy);
+  CycleCallees::Copy& write_copy(std::size_t callee);
   void check_words(const Statement& s);
   /// The cycle would be written once more, with words that mean something else by now. True: refused.
   [[nodiscard]] bool refuse_stale(Statement& s, Body& out);
@@ -406,6 +408,7 @@ class CyclePass {
   [[nodiscard]] bool levels_by_mode(const CyclePtr& native, const Block& b, const Facts& facts) const;
   /// A point on a target that defines the cycle in the block of its first point.
   void native_point(Statement&& s, Body&& pieces, Body& out);
+  void run_once(Statement&& s, Body&& pieces, bool apart, Body& out);
   void plain(Statement&& s, Body&& pieces, Body& out);
   /// A new retract plane while the cycle is active is a new cycle. True: the target's own one has changed.
   bool follow_retract_plane(const Block& b, const Facts& facts);

@@ -152,7 +152,14 @@ void CyclePass::native_point(Statement&& s, Body&& pieces, Body& out) {
     active_->defined_in = s.id;
     return put(out, std::move(pieces), std::move(s));
   }
-  // Moved there in another way than the target's cycle does: the move, then one run of the cycle.
+  run_once(std::move(s), std::move(pieces), apart, out);
+}
+
+/// Moved there in another way than the target's cycle does: the move, then one run of the cycle.
+void CyclePass::run_once(Statement&& s, Body&& pieces, bool apart, Body& out) {
+  const LineInfo like = s.line;
+  auto& b = std::get<Block>(s.node);
+  const Facts& facts = facts_.before(s);
   if (active_->on_target) pieces.push_back(off_statement(like, false));
   active_->on_target = false;
   position_rapid(b, context_);

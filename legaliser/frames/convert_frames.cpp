@@ -9,8 +9,8 @@
 #include "legaliser/edit/editor.h"
 #include "legaliser/frames/frame_rebuild.h"
 #include "legaliser/frames/frame_variables.h"
+#include "legaliser/frames/machine_moves.h"
 #include "legaliser/frames/preset_ends.h"
-#include "legaliser/frames/without_length.h"
 #include "legaliser/passes.h"
 
 namespace cnctrans::ir::passes {
@@ -31,7 +31,7 @@ class FramePass {
         facts_(facts),
         states_(program, facts, context),
         target_(program, context, no_presets || presets_taken_back(program, context, facts, states_)),
-        without_length_(program, context, facts),
+        machine_moves_(program, context, facts),
         preset_ends_(program, context) {}
 
   void routine(Routine& r) {
@@ -72,104 +72,118 @@ class FramePass {
     return found;
   }
 
+  /// The frame changes of one block, in their order.
+  struct Changes {
+    Block& block;
+    FrameState state;                               ///< behind those that have been looked at
+    std::vector<Action> actions;                    ///< what becomes of the block's
+    std::optional<FrameState> first = {};           ///< before several changes in a row that build one frame
+    std::shared_ptr<const FrameChange> begun = {};  ///< the first of those that say one frame together
+  };
+
   void block(Editor& editor, Statement&& s, FrameState state, Body& out) {
     auto& b = std::get<Block>(s.node);
-    if (b.has_motion && b.motion.frame != FrameUse::normal && !machine_move(s, b)) {
-      out.push_back(std::move(s));
-      return;
-    }
-    std::vector<Action> actions;
-    std::optional<FrameState> first;           // before several changes in a row that build one frame
-    std::shared_ptr<const FrameChange> begun;  // the first of a block's changes that say one frame together
-    for (std::size_t n = 0; n < b.actions.size(); ++n) {
+    bool good = !b.has_motion || b.motion.frame == FrameUse::normal || machine_moves_.fit(s, b);
+    Changes c{b, std::move(state), {}};
+    for (std::size_t n = 0; n < b.actions.size() && good; ++n) {
       Action& a = b.actions[n];
       if (const auto* w = std::get_if<WorkOffset>(&a.data)) {
-        const FrameState before = state;
-        state.select(*w, context_.source_machine);
-        work_offset(s, a, *w);
-        actions.push_back(a);
-        if (!target_.shift_again(state, actions)) {
-          refuse(s, program_, context_, "TRN-326",
-                 "a work offset takes the shift back on the target, and how far it is shifted here is not known",
-                 "select the work offset before the shift", a.pos);
-          out.push_back(std::move(s));
-          return;
-        }
-        const PlanarFrame was = before.slot(FrameSlot::preset), now = state.slot(FrameSlot::preset);
-        const bool same = was == now && (now.known() || before.preset_waits() == state.preset_waits());
-        if (program_.dialect == context_.target.dialect || same) continue;
-        FrameChange gone;  // what the preset holds goes, or comes back
-        gone.slot = FrameSlot::preset;
-        gone.kind = FrameKind::translate;
-        gone.combine = FrameCombine::clear;
-        if (!rebuild(s, a, gone, before, state, actions)) {
-          out.push_back(std::move(s));
-          return;
-        }
+        good = offset(s, a, *w, c);
       } else if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change) {
-        if (program_.dialect != context_.target.dialect && target_.chains() && turns_nothing(*f->change)) continue;
-        if (program_.dialect != context_.target.dialect && counts_from_machine(*f->change)) {
-          refuse(s, program_, context_, "TRN-325",
-                 "frame: a shift or preset that counts from the machine position, which is not known here",
-                 "shift the zero point by a number", a.pos);
-          out.push_back(std::move(s));
-          return;
-        }
-        const FrameState before = first ? *first : state;
-        state.apply(*f->change, facts_.before(s), b, context_.source_machine);
-        if (composed(b, n + 1)) {
-          if (!first) first = before;
-          continue;
-        }
-        if (waits(s, b, n + 1, state)) {
-          if (!first) first = before;
-          if (!begun) begun = f->change;
-          continue;
-        }
-        first.reset();
-        const bool silent = a.pos.column == 0 && target_.part(before).known() && before == state;
-        const auto distance = setting_in<Distance>(b, facts_.before(s), Setting::distance);
-        // A preset that the source keeps out of force with its work offsets would act at once on the target.
-        const bool kept_off = f->change->slot == FrameSlot::preset && state.preset_waits() &&
-                              context_.target_machine.policies.frame_preset != machine::FramePreset::with_work_offset;
-        auto same =
-            pending_ || begun || kept_off ? std::nullopt : target_.as_it_is(*f->change, before, state, distance);
-        // Where nothing is turned yet, a turn on top of it is the turn.
-        if (same && same->slot == FrameSlot::rotation && same->combine == FrameCombine::replace &&
-            same->words.empty() && !same->angle.is(0) && !target_.part(before).turns() &&
-            target_.can(FrameSlot::rotation, FrameCombine::add))
-          same->combine = FrameCombine::add;
-        const bool said_otherwise = same && same->by_distance_mode != f->change->by_distance_mode;
-        if (same && !(said_otherwise && target_.part(state).known())) {
-          if (same->combine != f->change->combine || same->by_distance_mode != f->change->by_distance_mode)
-            a.data = FrameOp{std::make_shared<const FrameChange>(std::move(*same))};
-          preset_ends_.tell(s, a, true);
-          actions.push_back(std::move(a));
-        } else if (silent && !begun) {
-          continue;  // a reset of what is not there, made by the reader
-        } else if (auto moved = pending_ || begun || setting<Units>(facts_.before(s), Setting::units) != Units::metric
-                                    ? std::nullopt
-                                    : target_.preset_from_here(*f->change, state)) {
-          a.data = FrameOp{std::make_shared<const FrameChange>(std::move(*moved))};
-          preset_ends_.tell(s, a, false);
-          actions.push_back(std::move(a));
-        } else if (waiting_.count(s.id) != 0) {
-          pending_ = true;
-        } else if (!rebuild(s, a, begun ? *begun : *f->change, before, state, actions)) {
-          out.push_back(std::move(s));
-          return;
-        } else {
-          pending_ = false;
-          preset_ends_.tell(s, a, false);
-        }
+        good = change(s, n, f->change, c);
       } else {
-        actions.push_back(std::move(a));
+        c.actions.push_back(std::move(a));
       }
     }
-    b.actions = std::move(actions);
-    tell_mirror(s, state);
+    if (!good) return out.push_back(std::move(s));
+    b.actions = std::move(c.actions);
+    tell_mirror(s, c.state);
     settle(s);
     editor.put(out, {}, std::move(s));
+  }
+
+  /// False: refused.
+  bool offset(Statement& s, const Action& a, const WorkOffset& w, Changes& c) {
+    const FrameState before = c.state;
+    c.state.select(w, context_.source_machine);
+    work_offset(s, a, w);
+    c.actions.push_back(a);
+    if (!target_.shift_again(c.state, c.actions)) {
+      refuse(s, program_, context_, "TRN-326",
+             "a work offset takes the shift back on the target, and how far it is shifted here is not known",
+             "select the work offset before the shift", a.pos);
+      return false;
+    }
+    const PlanarFrame was = before.slot(FrameSlot::preset), now = c.state.slot(FrameSlot::preset);
+    const bool same = was == now && (now.known() || before.preset_waits() == c.state.preset_waits());
+    if (program_.dialect == context_.target.dialect || same) return true;
+    FrameChange gone;  // what the preset holds goes, or comes back
+    gone.slot = FrameSlot::preset;
+    gone.kind = FrameKind::translate;
+    gone.combine = FrameCombine::clear;
+    return rebuild(s, a, gone, before, c.state, c.actions);
+  }
+
+  /// The n-th action of the block. False: refused.
+  bool change(Statement& s, std::size_t n, const std::shared_ptr<const FrameChange>& f, Changes& c) {
+    Action& a = c.block.actions[n];
+    if (program_.dialect != context_.target.dialect && target_.chains() && turns_nothing(*f)) return true;
+    if (program_.dialect != context_.target.dialect && counts_from_machine(*f)) {
+      refuse(s, program_, context_, "TRN-325",
+             "frame: a shift or preset that counts from the machine position, which is not known here",
+             "shift the zero point by a number", a.pos);
+      return false;
+    }
+    const FrameState before = c.first ? *c.first : c.state;
+    c.state.apply(*f, facts_.before(s), c.block, context_.source_machine);
+    const bool goes_on = composed(c.block, n + 1);
+    if (goes_on || waits(s, c.block, n + 1, c.state)) {
+      if (!c.first) c.first = before;
+      if (!goes_on && !c.begun) c.begun = f;
+      return true;
+    }
+    c.first.reset();
+    return say(s, a, *f, before, c);
+  }
+
+  /// The change as the target says it. False: refused.
+  bool say(Statement& s, Action& a, const FrameChange& f, const FrameState& before, Changes& c) {
+    const FrameState& state = c.state;
+    const bool silent = a.pos.column == 0 && target_.part(before).known() && before == state;
+    const auto distance = setting_in<Distance>(c.block, facts_.before(s), Setting::distance);
+    // A preset that the source keeps out of force with its work offsets would act at once on the target.
+    const bool kept_off = f.slot == FrameSlot::preset && state.preset_waits() &&
+                          context_.target_machine.policies.frame_preset != machine::FramePreset::with_work_offset;
+    const bool several = pending_ || c.begun;
+    auto same = several || kept_off ? std::nullopt : target_.as_it_is(f, before, state, distance);
+    // Where nothing is turned yet, a turn on top of it is the turn.
+    if (same && same->slot == FrameSlot::rotation && same->combine == FrameCombine::replace && same->words.empty() &&
+        !same->angle.is(0) && !target_.part(before).turns() && target_.can(FrameSlot::rotation, FrameCombine::add))
+      same->combine = FrameCombine::add;
+    const bool said_otherwise = same && same->by_distance_mode != f.by_distance_mode;
+    if (same && !(said_otherwise && target_.part(state).known())) {
+      if (same->combine != f.combine || same->by_distance_mode != f.by_distance_mode)
+        a.data = FrameOp{std::make_shared<const FrameChange>(std::move(*same))};
+      preset_ends_.tell(s, a, true);
+      c.actions.push_back(std::move(a));
+      return true;
+    }
+    if (silent && !c.begun) return true;  // a reset of what is not there, made by the reader
+    const bool metric = setting<Units>(facts_.before(s), Setting::units) == Units::metric;
+    if (auto moved = several || !metric ? std::nullopt : target_.preset_from_here(f, state)) {
+      a.data = FrameOp{std::make_shared<const FrameChange>(std::move(*moved))};
+      preset_ends_.tell(s, a, false);
+      c.actions.push_back(std::move(a));
+      return true;
+    }
+    if (waiting_.count(s.id) != 0) {
+      pending_ = true;
+      return true;
+    }
+    if (!rebuild(s, a, c.begun ? *c.begun : f, before, state, c.actions)) return false;
+    pending_ = false;
+    preset_ends_.tell(s, a, false);
+    return true;
   }
 
   /// The action goes on with the chain that the one before it began.
@@ -268,55 +282,6 @@ class FramePass {
                   : "the target may end the rotation here (its manual does not say), the "
                     "source keeps it"),
         "end the rotation before the plane function and set it again after it");
-  }
-
-  bool machine_move(Statement& s, Block& b) {
-    if (!machine_words(s, b)) return false;
-    const auto& uses = context_.target.frame_uses;
-    if (uses.count(b.motion.frame) != 0) return true;
-    if (b.motion.frame == FrameUse::machine_with_length && uses.count(FrameUse::machine) != 0) {
-      if (!without_length_.holds(s))
-        context_.diagnostics.warning(
-            "TRN-321", word_span(s.line.span, b.motion.frame_pos),
-            "a move in machine coordinates that keeps the tool length: the target leaves the length out, so "
-            "the slide stands off by the tool length",
-            "check the height of this move");
-      b.motion.frame = FrameUse::machine;
-      return true;
-    }
-    refuse(s, program_, context_, "TRN-322", "a move in machine coordinates of a kind that the target lacks", {},
-           b.motion.frame_pos);
-    return false;
-  }
-
-  /// Increments and positions in machine coordinates, by what the modes mean there on both controls. False: refused.
-  bool machine_words(Statement& s, Block& b) const {
-    if (b.motion.frame == FrameUse::no_programmable) return true;
-    const auto positions = [](const machine::Profile& m) {
-      return m.policies.machine_move_words == machine::MachineMoveWords::absolute;
-    };
-    const bool from = positions(context_.source_machine), to = positions(context_.target_machine);
-    const Capabilities& t = context_.target;
-    for (auto& c : b.motion.coords) {
-      if (from && c.mode == WordMode::modal) c.mode = WordMode::absolute;
-      const auto d = distance_of(c, b, facts_.before(s));
-      if (!to) continue;
-      if (d == Distance::incremental) {
-        refuse(s, program_, context_, "TRN-322", "an incremental move in machine coordinates, which the target lacks",
-               "write the position in machine coordinates", c.pos);
-        return false;
-      }
-      if (!d) {
-        context_.diagnostics.warning(
-            "TRN-321", word_span(s.line.span, c.pos),
-            "whether this word in machine coordinates is absolute depends on the path that leads here; the target "
-            "takes it as a machine position",
-            "write the distance mode before this move");
-      }
-      const bool by_block = !t.distance_per_word && !t.distance_inside_block;
-      c.mode = by_block ? WordMode::modal : WordMode::absolute;
-    }
-    return true;
   }
 
   void work_offset(const Statement& s, const Action& a, const WorkOffset& w) const {
@@ -418,7 +383,7 @@ class FramePass {
   const FactsOf& facts_;
   const FrameStates states_;
   const FrameTarget target_;
-  const WithoutLength without_length_;
+  const MachineMoves machine_moves_;
   std::set<std::uint32_t> waiting_, lost_;
   bool pending_ = false;  ///< statements before this one wait to be said here
   bool mirror_told_ = false;

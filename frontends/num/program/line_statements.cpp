@@ -267,55 +267,61 @@ void FileReader::split_call(ir::Statement flow) {
   scratch_ = ir::Block{};
 }
 
+template <typename Node>
+bool FileReader::open(Node node, WordPos pos) {
+  if (nested_too_deep(builder_)) {
+    lower_.report().refuse("NUM-022", pos, "structures are nested too deeply: the control takes 15 levels");
+    return true;
+  }
+  ir::Statement st = with_line();
+  st.node = std::move(node);
+  builder_.open(std::move(st));
+  return true;
+}
+
+bool FileReader::without(const syntax::Statement& s, std::string_view what) {
+  lower_.report().refuse("NUM-022", s.pos, "`" + s.keyword + "` without its " + std::string(what));
+  return true;
+}
+
+bool FileReader::for_loop(const syntax::Statement& s) {
+  Report& report = lower_.report();
+  ir::For node;
+  const syntax::Expr& counter = s.args.at(0);
+  syntax::Statement assign;
+  assign.args = {counter, s.args.at(1)};
+  std::vector<ir::Assign::Item> items;
+  if (!lower_.expressions().assignment(assign, items) || items.size() != 1 || items[0].to_system) {
+    if (!report.refused()) report.refuse("NUM-023", counter.pos, "machine data as a counter", {}, "language.statement");
+    return true;
+  }
+  node.counter = std::move(items[0].target);
+  node.from = std::move(items[0].value);
+  node.to = lower_.expressions().lower(s.args.at(2));
+  ir::ExprPtr step =
+      s.args.at(3).kind == syntax::ExprKind::missing ? nullptr : lower_.expressions().lower(s.args.at(3));
+  if (s.text == "DOWNTO") step = step ? ir::unary(ir::UnaryOp::negate, std::move(step)) : ir::number(-1);
+  node.step = std::move(step);
+  return report.refused() || open(std::move(node), s.pos);
+}
+
 bool FileReader::structured(const syntax::Statement& s) {
   using Kind = StructureBuilder::Kind;
   Report& report = lower_.report();
-  const auto wrong = [&](std::string_view what) {
-    report.refuse("NUM-022", s.pos, "`" + s.keyword + "` without its " + std::string(what));
-    return true;
-  };
+  const auto wrong = [&](std::string_view what) { return without(s, what); };
   const auto condition = [&] { return lower_.expressions().lower(s.args.at(0)); };
-  const auto open = [&](auto node) {
-    if (nested_too_deep(builder_)) {
-      report.refuse("NUM-022", s.pos, "structures are nested too deeply: the control takes 15 levels");
-      return true;
-    }
-    ir::Statement st = with_line();
-    st.node = std::move(node);
-    builder_.open(std::move(st));
-    return true;
-  };
   if (s.keyword == "IF") {
     ir::If node;
     node.condition = condition();
-    return report.refused() || open(std::move(node));
+    return report.refused() || open(std::move(node), s.pos);
   }
   if (s.keyword == "WHILE") {
     ir::While node;
     node.condition = condition();
-    return report.refused() || open(std::move(node));
+    return report.refused() || open(std::move(node), s.pos);
   }
-  if (s.keyword == "REPEAT") return open(ir::Until{});
-  if (s.keyword == "FOR") {
-    ir::For node;
-    const syntax::Expr& counter = s.args.at(0);
-    syntax::Statement assign;
-    assign.args = {counter, s.args.at(1)};
-    std::vector<ir::Assign::Item> items;
-    if (!lower_.expressions().assignment(assign, items) || items.size() != 1 || items[0].to_system) {
-      if (!report.refused())
-        report.refuse("NUM-023", counter.pos, "machine data as a counter", {}, "language.statement");
-      return true;
-    }
-    node.counter = std::move(items[0].target);
-    node.from = std::move(items[0].value);
-    node.to = lower_.expressions().lower(s.args.at(2));
-    ir::ExprPtr step =
-        s.args.at(3).kind == syntax::ExprKind::missing ? nullptr : lower_.expressions().lower(s.args.at(3));
-    if (s.text == "DOWNTO") step = step ? ir::unary(ir::UnaryOp::negate, std::move(step)) : ir::number(-1);
-    node.step = std::move(step);
-    return report.refused() || open(std::move(node));
-  }
+  if (s.keyword == "REPEAT") return open(ir::Until{}, s.pos);
+  if (s.keyword == "FOR") return for_loop(s);
   if (s.keyword == "ELSE") return builder_.else_branch(line_) || wrong("IF");
   if (s.keyword == "ENDI") return builder_.close(Kind::if_, line_) || wrong("IF");
   if (s.keyword == "ENDW") return builder_.close(Kind::while_, line_) || wrong("WHILE");
@@ -329,10 +335,16 @@ bool FileReader::structured(const syntax::Statement& s) {
     put_node(ir::Exit{});
     return true;
   }
+  return carried(s);
+}
+
+/// Statements that are read and do nothing to the path, and those that are only kept.
+bool FileReader::carried(const syntax::Statement& s) {
+  Report& report = lower_.report();
   if (s.keyword == "THEN" || s.keyword == "DO" || s.keyword == "VAR" || s.keyword == "ENDV") {
     if (s.keyword == "VAR") in_var_ = true;
     if (s.keyword == "ENDV") {
-      if (!in_var_) return wrong("VAR");
+      if (!in_var_) return without(s, "VAR");
       in_var_ = false;
     }
     if (!line_.number.empty() || !line_.comments.empty()) put_node(ir::Block{});

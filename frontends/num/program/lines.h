@@ -45,6 +45,13 @@ class FileReader {
 
   void block(const Span& span, std::string_view text);
   bool structured(const syntax::Statement& s);
+  /// Opens a structure; it is told where they are nested too deeply.
+  template <typename Node>
+  bool open(Node node, WordPos pos);
+  bool for_loop(const syntax::Statement& s);
+  /// Refuses the end of a structure that was not begun; true.
+  bool without(const syntax::Statement& s, std::string_view what);
+  bool carried(const syntax::Statement& s);
   bool assignments();
   bool stack(const syntax::Statement& s);
   void check_stack();

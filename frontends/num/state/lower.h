@@ -132,6 +132,8 @@ class Lowering {
   bool take(const Word& w);
   void code(const Word& w);
   void code_action(const Word& w, const dialects::num::GCode& row);
+  void setting_code(const Word& w, const dialects::num::GCode& row);
+  void cycle_off(const Word& w);
   void mark_surface(const syntax::Word& w, ir::Surface surface);
   void face_words();
   void motion_code(const Word& w, ir::MotionKind kind);

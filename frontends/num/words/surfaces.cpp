@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "frontends/num/state/actions.h"
+#include "frontends/num/state/lower.h"
 #include "ir/analysis/dataflow.h"
 #include "ir/analysis/settings.h"
 #include "ir/edit/search.h"
@@ -63,6 +65,34 @@ void judge_surfaces(ir::Program& program, const ir::ModalState& power_on, Diagno
                           by_text == ir::Surface::face ? "write G17 behind G21" : "write G19 behind G22");
       }
     });
+  }
+}
+
+/// G21: Cartesian X and Y on the face; G22: Y along the cylinder on which X stands; G20: X Z (12.6).
+void Lowering::mark_surface(const Word& w, ir::Surface surface) {
+  if (surface != ir::Surface::none) {
+    report_.warn("NUM-049", w.pos,
+                 "`" + std::string(text_of(w)) +
+                     (surface == ir::Surface::face
+                          ? "`: X on the face is read as a " +
+                                std::string(settings_.face_radius ? "radius" : "word of the machine's own kind") +
+                                "; the manuals at hand do not say it"
+                          : "`: the cylinder is the one on which X stands"),
+                 surface == ir::Surface::face ? "the option num.face_x says it" : "");
+  }
+  state_.surface = surface;
+  act(w, Step::setting, ir::SurfaceSet{surface, {}});
+}
+
+/// X of the face where it is a radius whatever the machine's X is.
+void Lowering::face_words() {
+  if (state_.surface != ir::Surface::face || !settings_.face_radius) return;
+  auto& m = out_->motion;
+  for (auto& c : m.coords) {
+    if (c.axis == ir::axis::x) c.scale = ir::WordScale::radius;
+  }
+  for (auto& c : m.centers) {
+    if (c.axis == ir::axis::x) c.scale = ir::WordScale::radius;
   }
 }
 

@@ -61,34 +61,6 @@ void Lowering::start_program(bool main, std::int64_t number) {
   state_.motion = settings_.power_on.motion;
 }
 
-/// G21: Cartesian X and Y on the face; G22: Y along the cylinder on which X stands; G20: X Z (12.6).
-void Lowering::mark_surface(const Word& w, ir::Surface surface) {
-  if (surface != ir::Surface::none) {
-    report_.warn("NUM-049", w.pos,
-                 "`" + std::string(text_of(w)) +
-                     (surface == ir::Surface::face
-                          ? "`: X on the face is read as a " +
-                                std::string(settings_.face_radius ? "radius" : "word of the machine's own kind") +
-                                "; the manuals at hand do not say it"
-                          : "`: the cylinder is the one on which X stands"),
-                 surface == ir::Surface::face ? "the option num.face_x says it" : "");
-  }
-  state_.surface = surface;
-  act(w, Step::setting, ir::SurfaceSet{surface, {}});
-}
-
-/// X of the face where it is a radius whatever the machine's X is.
-void Lowering::face_words() {
-  if (state_.surface != ir::Surface::face || !settings_.face_radius) return;
-  auto& m = out_->motion;
-  for (auto& c : m.coords) {
-    if (c.axis == ir::axis::x) c.scale = ir::WordScale::radius;
-  }
-  for (auto& c : m.centers) {
-    if (c.axis == ir::axis::x) c.scale = ir::WordScale::radius;
-  }
-}
-
 void Lowering::unknown(const Word& w, std::string_view why) {
   report_.refuse("NUM-005", w.pos, "`" + std::string(text_of(w)) + "`: " + std::string(why), {}, "block.word");
 }
@@ -269,6 +241,37 @@ void Lowering::code(const Word& w) {
                  "block.word");
 }
 
+void Lowering::setting_code(const Word& w, const facts::GCode& row) {
+  switch (row.kind) {
+    case GKind::plane:
+      state_.plane = static_cast<ir::Plane>(row.value);
+      marks_.plane = true;
+      return setting(w, ir::Setting::plane, state_.plane);
+    case GKind::comp:
+      state_.spatial = false;
+      return setting(w, ir::Setting::comp, static_cast<ir::CompSide>(row.value));
+    case GKind::units:
+      marks_.unit = true;
+      state_.inch = static_cast<ir::Units>(row.value) == ir::Units::inch;
+      return setting(w, ir::Setting::units, static_cast<ir::Units>(row.value));
+    case GKind::feed_mode: return setting(w, ir::Setting::feed_mode, static_cast<ir::FeedMode>(row.value));
+    default:  // spindle_mode
+      if (row.value == facts::u8(ir::SpindleMode::css)) {
+        marks_.css = &w;
+        marks_.any = true;
+      }
+      return setting(w, ir::Setting::spindle_mode, static_cast<ir::SpindleMode>(row.value));
+  }
+}
+
+void Lowering::cycle_off(const Word& w) {
+  act(w, Step::setting, ir::CycleCancel{});
+  marks_.cycle_off = true;
+  state_.cycle = {};
+  state_.turning_profile = false;
+  state_.stock.reset();
+}
+
 void Lowering::code_action(const Word& w, const facts::GCode& row) {
   if (row.machine == facts::GMachine::lathe && !settings_.lathe) {
     report_.refuse("NUM-002", w.pos,
@@ -290,20 +293,10 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
   switch (row.kind) {
     case GKind::motion: return motion_code(w, static_cast<ir::MotionKind>(row.value));
     case GKind::plane:
-      state_.plane = static_cast<ir::Plane>(row.value);
-      marks_.plane = true;
-      return setting(w, ir::Setting::plane, state_.plane);
     case GKind::comp:
-      state_.spatial = false;
-      return setting(w, ir::Setting::comp, static_cast<ir::CompSide>(row.value));
     case GKind::units:
-      marks_.unit = true;
-      state_.inch = static_cast<ir::Units>(row.value) == ir::Units::inch;
-      return setting(w, ir::Setting::units, static_cast<ir::Units>(row.value));
-    case GKind::feed_mode: return setting(w, ir::Setting::feed_mode, static_cast<ir::FeedMode>(row.value));
-    case GKind::spindle_mode:
-      if (row.value == facts::u8(ir::SpindleMode::css)) mark(marks_.css);
-      return setting(w, ir::Setting::spindle_mode, static_cast<ir::SpindleMode>(row.value));
+    case GKind::feed_mode:
+    case GKind::spindle_mode: return setting_code(w, row);
     case GKind::distance:
       if (marks_.distance_count == marks_.distances.size()) return unknown(w, "too many changes between G90 and G91");
       marks_.distances[marks_.distance_count++] = &w;
@@ -323,14 +316,8 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
     case GKind::hole_cycle: return mark(marks_.cycle);
     case GKind::retract_sub: return mark(marks_.retract);
     case GKind::interruptible: return mark(marks_.interruptible);
-    case GKind::offsets_off:
-    case GKind::offsets_on: {
-      ir::WorkOffset offset;
-      offset.off = row.kind == GKind::offsets_off;
-      if (!offset.off) offset.index = ir::Value(1);
-      act(w, Step::frame, std::move(offset));
-      return;
-    }
+    case GKind::offsets_off: act(w, Step::frame, ir::WorkOffset{{}, true}); return;
+    case GKind::offsets_on: act(w, Step::frame, ir::WorkOffset{ir::Value(1), false}); return;
     case GKind::scale_off:
     case GKind::scale_on: return scale(w, row.kind == GKind::scale_on);
     case GKind::call:
@@ -340,13 +327,7 @@ void Lowering::code_action(const Word& w, const facts::GCode& row) {
       flow_->code = &row;
       flow_->word = &w;
       return;
-    case GKind::cycle_off:
-      act(w, Step::setting, ir::CycleCancel{});
-      marks_.cycle_off = true;
-      state_.cycle = {};
-      state_.turning_profile = false;
-      state_.stock.reset();
-      return;
+    case GKind::cycle_off: return cycle_off(w);
     case GKind::synchronise:
     case GKind::save_values: return only_text(w, row);
     case GKind::thread_segment: return mark(marks_.thread);

@@ -223,6 +223,43 @@ void StatementLowering::fill_table(const Expr& error, WordPos pos, const ir::Lin
 
 // --- a row as a move --------------------------------------------------------------------------------------------
 
+namespace {
+
+/// To the end of the element in a row of the table; `cell` reads one of its columns.
+template <typename Cell>
+ir::Block element_move(ir::MotionKind kind, bool modal, const ir::PlaneAxes& axes, WordPos pos, const Cell& cell) {
+  ir::Block out;
+  out.has_motion = true;
+  ir::Motion& m = out.motion;
+  m.kind = kind;
+  m.explicit_code = true;
+  m.keeps_modal = modal;
+  m.code_pos = pos;
+  int column = 5;
+  for (const ir::AxisId axis : {axes.u, axes.v}) {
+    ir::CoordWord w;
+    w.axis = axis;
+    w.mode = ir::WordMode::absolute;
+    w.value = ir::Value(cell(column++));
+    w.pos = pos;
+    m.coords.push_back(std::move(w));
+  }
+  column = 9;
+  for (const ir::AxisId axis : {axes.u, axes.v}) {
+    if (kind != ir::MotionKind::arc_cw && kind != ir::MotionKind::arc_ccw) break;
+    ir::CenterWord w;
+    w.axis = axis;
+    w.mode = ir::CenterMode::absolute;
+    w.scale = ir::WordScale::modal;
+    w.value = ir::Value(cell(column++));
+    w.pos = pos;
+    m.centers.push_back(std::move(w));
+  }
+  return out;
+}
+
+}  // namespace
+
 /// EXECTAB(TAB[I]): to the end of the element, by the motion code that its row has.
 bool StatementLowering::run_element(const Block& block, const ir::LineInfo& info) {
   const bool one = block.statements.size() == 1 && block.words.empty() && block.statements.front().keyword == "()" &&
@@ -260,37 +297,6 @@ bool StatementLowering::run_element(const Block& block, const ir::LineInfo& info
   c_.warning("SIN-138", s.pos,
              "EXECTAB() is a move from where the tool stands to the end of the element, with the feed in force; the "
              "motion code in force before it stays");
-  const auto axes = ir::plane_axes(*c_.plane);
-  const auto move = [&](ir::MotionKind kind) {
-    ir::Block out;
-    out.has_motion = true;
-    ir::Motion& m = out.motion;
-    m.kind = kind;
-    m.explicit_code = true;
-    m.keeps_modal = c_.motion == kind;
-    m.code_pos = s.pos;
-    int column = 5;
-    for (const ir::AxisId axis : {axes.u, axes.v}) {
-      ir::CoordWord w;
-      w.axis = axis;
-      w.mode = ir::WordMode::absolute;
-      w.value = ir::Value(cell(column++));
-      w.pos = s.pos;
-      m.coords.push_back(std::move(w));
-    }
-    column = 9;
-    for (const ir::AxisId axis : {axes.u, axes.v}) {
-      if (kind != ir::MotionKind::arc_cw && kind != ir::MotionKind::arc_ccw) break;
-      ir::CenterWord w;
-      w.axis = axis;
-      w.mode = ir::CenterMode::absolute;
-      w.scale = ir::WordScale::modal;
-      w.value = ir::Value(cell(column++));
-      w.pos = s.pos;
-      m.centers.push_back(std::move(w));
-    }
-    return out;
-  };
   constexpr ir::MotionKind kinds[] = {ir::MotionKind::rapid, ir::MotionKind::linear, ir::MotionKind::arc_cw,
                                       ir::MotionKind::arc_ccw};
   // The units digit of column 2.
@@ -301,7 +307,7 @@ bool StatementLowering::run_element(const Block& block, const ir::LineInfo& info
   plain.span = info.span;
   const auto put = [&](ir::MotionKind kind) {
     ir::LineInfo line = further_line(info);
-    emit(line, move(kind));
+    emit(line, element_move(kind, c_.motion == kind, ir::plane_axes(*c_.plane), s.pos, cell));
   };
   for (std::size_t i = 0; i + 1 < std::size(kinds); ++i) {
     ir::Statement branch;

@@ -97,6 +97,25 @@ std::vector<Expr> StatementLowering::frames_inside(std::string_view active, int 
   return out;
 }
 
+/// The frame with the added one behind all that stand inside of it. Null: one of these can't be read.
+ir::ExprPtr StatementLowering::behind_frames(ir::ExprPtr frame, ir::ExprPtr added, const std::vector<Expr>& inside,
+                                             WordPos pos) {
+  const auto chain = [pos](ir::ExprPtr outer, ir::ExprPtr inner) {
+    if (!outer) return inner;
+    return make_expr(ir::Call{ir::Function::frame_chain, {std::move(outer), std::move(inner)}}, ir::Type::frame, pos);
+  };
+  ir::ExprPtr whole;
+  for (const Expr& e : inside) {
+    const auto f = exprs_.frame_name(e);
+    if (!f) return nullptr;
+    whole = chain(std::move(whole), f->whole);
+  }
+  if (!whole) return chain(std::move(frame), std::move(added));
+  frame = chain(chain(std::move(frame), whole), std::move(added));
+  return chain(std::move(frame),
+               make_expr(ir::Call{ir::Function::frame_inverse, {std::move(whole)}}, ir::Type::frame, pos));
+}
+
 /// STATE=ADDFRAME(FRAME,"name"): 0 done, 1 no such frame, 2 the machine does not have it.
 bool StatementLowering::add_frame(const Expr& state, const Expr& call, WordPos pos, Parts& parts) {
   const auto answer = [&](int code) {
@@ -148,22 +167,10 @@ bool StatementLowering::add_frame(const Expr& state, const Expr& call, WordPos p
   const auto written = exprs_.frame_name(named(name, index, text.pos));
   const auto whole = exprs_.frame_name(named(target->active, target->active == "$P_CHBFRAME" ? index : -1, text.pos));
   ir::ExprPtr value = written && whole ? whole->whole : nullptr;
-  const auto behind = [&](ir::ExprPtr inner) {
-    value = make_expr(ir::Call{ir::Function::frame_chain, {std::move(value), std::move(inner)}}, ir::Type::frame, pos);
-  };
   ir::ExprPtr added = value ? exprs_.frame(call.args[0]) : nullptr;
   if (!added) return false;
-  ir::ExprPtr inside;
-  for (const Expr& e : frames_inside(target->active, index, pos)) {
-    const auto f = exprs_.frame_name(e);
-    if (!f) return false;
-    inside = !inside
-                 ? f->whole
-                 : make_expr(ir::Call{ir::Function::frame_chain, {std::move(inside), f->whole}}, ir::Type::frame, pos);
-  }
-  if (inside) behind(inside);
-  behind(std::move(added));
-  if (inside) behind(make_expr(ir::Call{ir::Function::frame_inverse, {std::move(inside)}}, ir::Type::frame, pos));
+  value = behind_frames(std::move(value), std::move(added), frames_inside(target->active, index, pos), pos);
+  if (!value) return false;
   c_.framed = true;
   const auto& system = std::get<ir::SystemRef>(written->whole->node);
   if (row != nullptr) c_.said.emplace("$P_BFRAME");

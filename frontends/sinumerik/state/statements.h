@@ -76,6 +76,8 @@ class StatementLowering {
   bool frame_statements(const ir::ExprPtr& value, WordPos pos, std::vector<ir::Action>& out);
   bool add_frame(const syntax::Expr& state, const syntax::Expr& call, WordPos pos, Parts& parts);
   [[nodiscard]] bool has_control_frame(std::string_view active) const;
+  [[nodiscard]] ir::ExprPtr behind_frames(ir::ExprPtr frame, ir::ExprPtr added, const std::vector<syntax::Expr>& inside,
+                                          WordPos pos);
   [[nodiscard]] std::vector<syntax::Expr> frames_inside(std::string_view active, int index, WordPos pos) const;
   bool offset_row(const ir::Expr& target, const ir::ExprPtr& value, WordPos pos, ir::Assign& out);
   // words of one axis (lower_axis_words.cpp)

@@ -58,6 +58,7 @@ class WordLowering {
   void begin(ir::Block& out);
   void g_words(const syntax::Block& block);
   void g_function(const GFunction& g, WordPos pos);
+  void setting(ir::Setting which, std::uint8_t value, WordPos pos);
   void feed_mode(const GFunction& g, WordPos pos);
   void words(const syntax::Block& block);
   void letter(const syntax::Block& block, const syntax::Word& w, char address);
@@ -72,6 +73,9 @@ class WordLowering {
   void cutting_speed(const syntax::Word& w, const ir::Value& value);
   void words_of_tool();
   void named(const syntax::Block& block, const syntax::Word& w);
+  void known_word(NamedWord use, const std::string& name, const syntax::Word& w, ir::Value value, Attribute attribute);
+  void value_of_move(NamedWord use, const syntax::Word& w, ir::Value value, Attribute attribute);
+  void corner(ir::CornerKind kind, bool modal, const std::string& name, ir::Value size, WordPos pos);
   void coordinate(ir::AxisId axis, const syntax::Word& w, ir::Value value, Attribute attribute);
   bool polynomial(const syntax::Block& block, const syntax::Word& w, ir::AxisId axis);
   void center(ir::AxisId axis, const syntax::Word& w, ir::Value value, Attribute attribute);

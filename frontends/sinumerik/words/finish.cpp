@@ -18,6 +18,32 @@ void WordLowering::spindle_position(const Word& w, ir::Value value, Attribute at
        ir::Order::before, w.pos);
 }
 
+namespace {
+
+/// Words that say one value of the move.
+struct ValueOfMove {
+  NamedWord use;
+  bool ir::MotionExtra::*given;
+  ir::Value ir::MotionExtra::*value;
+};
+using Extra = ir::MotionExtra;
+constexpr ValueOfMove values_of_move[] = {
+    {NamedWord::opening_angle, &Extra::has_angle, &Extra::opening_angle},
+    {NamedWord::turns, &Extra::has_turns, &Extra::turns},
+    {NamedWord::polar_radius, &Extra::has_polar_radius, &Extra::polar_radius},
+    {NamedWord::polar_angle, &Extra::has_polar_angle, &Extra::polar_angle},
+    {NamedWord::line_angle, &Extra::has_line_angle, &Extra::line_angle},
+    {NamedWord::thread_start, &Extra::has_start_angle, &Extra::start_angle},
+    {NamedWord::fixed_point, &Extra::has_fixed_point, &Extra::fixed_point},
+    {NamedWord::probe, &Extra::has_probe_edge, &Extra::probe_edge},
+    {NamedWord::probe_to_end, &Extra::has_probe_edge, &Extra::probe_edge},
+    {NamedWord::point_weight, &Extra::has_weight, &Extra::weight},
+    {NamedWord::spline_degree, &Extra::has_degree, &Extra::degree},
+    {NamedWord::interval, &Extra::has_interval, &Extra::interval},
+};
+
+}  // namespace
+
 void WordLowering::named(const syntax::Block& block, const Word& w) {
   if (!w.has_value) {
     if (sinumerik::g_function(w.address) != nullptr) return;
@@ -33,69 +59,73 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
   }
   Attribute attribute = Attribute::none;
   ir::Value value = exprs_.value(block, w, attribute);
-  if (row == nullptr) {
-    if (const ir::AxisId axis = c_.machine.axis(name); axis != ir::axis::none) {
-      return coordinate(axis, w, std::move(value), attribute);
-    }
-    failed_ = true;
-    c_.error("SIN-003", w.pos,
-             "`" + name + "` is no address of this control and no axis of the machine " + c_.machine.profile->name,
-             "a variable must be set in a block of its own");
-    return;
+  if (row != nullptr) return known_word(row->use, name, w, std::move(value), attribute);
+  if (const ir::AxisId axis = c_.machine.axis(name); axis != ir::axis::none) {
+    return coordinate(axis, w, std::move(value), attribute);
   }
-  const auto polar = [&](ir::WordMode& word) {
-    word = attribute == Attribute::ic   ? ir::WordMode::incremental
-           : attribute == Attribute::ac ? ir::WordMode::absolute
-                                        : ir::WordMode::modal;
-  };
-  const auto corner = [&](ir::CornerKind kind, bool modal) {
-    if (corner_ >= 0 || (value.literal() && value.number < 0)) {
-      failed_ = true;
-      c_.error("SIN-005", w.pos,
-               corner_ >= 0 ? "two corners in one block" : name + " takes the size of the corner: not below 0");
-    }
-    corner_ = static_cast<std::int32_t>(out_->actions.size());
-    ir::Corner c;
-    c.kind = kind;
-    c.modal = modal;
-    c.value = std::move(value);
-    push(std::move(c), Rank::corner, ir::Order::before, w.pos);
-  };
-  switch (row->use) {
+  failed_ = true;
+  c_.error("SIN-003", w.pos,
+           "`" + name + "` is no address of this control and no axis of the machine " + c_.machine.profile->name,
+           "a variable must be set in a block of its own");
+}
+
+void WordLowering::corner(ir::CornerKind kind, bool modal, const std::string& name, ir::Value size, WordPos pos) {
+  if (corner_ >= 0 || (size.literal() && size.number < 0)) {
+    failed_ = true;
+    c_.error("SIN-005", pos,
+             corner_ >= 0 ? "two corners in one block" : name + " takes the size of the corner: not below 0");
+  }
+  corner_ = static_cast<std::int32_t>(out_->actions.size());
+  ir::Corner c;
+  c.kind = kind;
+  c.modal = modal;
+  c.value = std::move(size);
+  push(std::move(c), Rank::corner, ir::Order::before, pos);
+}
+
+void WordLowering::value_of_move(NamedWord use, const Word& w, ir::Value value, Attribute attribute) {
+  const auto* row = std::find_if(std::begin(values_of_move), std::end(values_of_move),
+                                 [use](const ValueOfMove& v) { return v.use == use; });
+  const ir::WordMode mode = attribute == Attribute::ic   ? ir::WordMode::incremental
+                            : attribute == Attribute::ac ? ir::WordMode::absolute
+                                                         : ir::WordMode::modal;
+  if (use == NamedWord::turns && value.literal() && (value.number < 0 || value.number != std::trunc(value.number))) {
+    failed_ = true;
+    return c_.error("SIN-017", w.pos, "TURN= counts whole turns beside the arc: 0, 1, 2 ...",
+                    "a part of a turn is the arc itself");
+  }
+  if (use == NamedWord::thread_start && c_.thread_start.set(value) && !value.is(0)) lasting_missed(w.pos);
+  extra().*row->given = true;
+  extra_.*row->value = std::move(value);
+  if (use == NamedWord::polar_radius) extra_.polar_mode = mode;
+  if (use == NamedWord::polar_angle) extra_.polar_angle_mode = mode;
+  extra_.probe_goes_on = extra_.probe_goes_on || use == NamedWord::probe_to_end;
+}
+
+void WordLowering::known_word(NamedWord use, const std::string& name, const Word& w, ir::Value value,
+                              Attribute attribute) {
+  switch (use) {
     case NamedWord::arc_radius:
       out_->motion.radius_given = true;
       out_->motion.radius = std::move(value);
       out_->motion.radius_pos = w.pos;
       return;
     case NamedWord::opening_angle:
-      extra().has_angle = true;
-      extra_.opening_angle = std::move(value);
-      return;
     case NamedWord::turns:
-      if (value.literal() && (value.number < 0 || value.number != std::trunc(value.number))) {
-        failed_ = true;
-        return c_.error("SIN-017", w.pos, "TURN= counts whole turns beside the arc: 0, 1, 2 ...",
-                        "a part of a turn is the arc itself");
-      }
-      extra().has_turns = true;
-      extra_.turns = std::move(value);
-      return;
     case NamedWord::polar_radius:
-      extra().has_polar_radius = true;
-      extra_.polar_radius = std::move(value);
-      return polar(extra_.polar_mode);
     case NamedWord::polar_angle:
-      extra().has_polar_angle = true;
-      extra_.polar_angle = std::move(value);
-      return polar(extra_.polar_angle_mode);
     case NamedWord::line_angle:
-      extra().has_line_angle = true;
-      extra_.line_angle = std::move(value);
-      return;
-    case NamedWord::round: return corner(ir::CornerKind::round, false);
-    case NamedWord::round_modal: return corner(ir::CornerKind::round, true);
-    case NamedWord::chamfer_leg: return corner(ir::CornerKind::chamfer_leg, false);
-    case NamedWord::chamfer_chord: return corner(ir::CornerKind::chamfer_chord, false);
+    case NamedWord::thread_start:
+    case NamedWord::fixed_point:
+    case NamedWord::probe:
+    case NamedWord::probe_to_end:
+    case NamedWord::point_weight:
+    case NamedWord::spline_degree:
+    case NamedWord::interval: return value_of_move(use, w, std::move(value), attribute);
+    case NamedWord::round: return corner(ir::CornerKind::round, false, name, std::move(value), w.pos);
+    case NamedWord::round_modal: return corner(ir::CornerKind::round, true, name, std::move(value), w.pos);
+    case NamedWord::chamfer_leg: return corner(ir::CornerKind::chamfer_leg, false, name, std::move(value), w.pos);
+    case NamedWord::chamfer_chord: return corner(ir::CornerKind::chamfer_chord, false, name, std::move(value), w.pos);
     case NamedWord::corner_feed:
       has_corner_feed_ = true;
       corner_feed_ = std::move(value);
@@ -108,39 +138,12 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
       }
       return push(ir::OpaqueWord{c_.slice(w.pos)}, Rank::setting, ir::Order::with, w.pos);
     case NamedWord::orientation: return orientation(w);
-    case NamedWord::thread_start:
-      if (c_.thread_start.set(value) && !value.is(0)) lasting_missed(w.pos);
-      extra().has_start_angle = true;
-      extra_.start_angle = std::move(value);
-      return;
     case NamedWord::spindle_limit:
       value = c_.lower_limit(c_.css_limit, c_.speed_limit, value, w.pos);
       return push(ir::SpindleLimit{c_.master_spindle, std::move(value), false}, Rank::limit, ir::Order::before, w.pos);
     case NamedWord::spindle_position: return spindle_position(w, std::move(value), attribute);
     case NamedWord::block_feed:
       return push(ir::SetFeed{std::move(value), false, true}, Rank::feed, ir::Order::before, w.pos);
-    case NamedWord::fixed_point:
-      extra().has_fixed_point = true;
-      extra_.fixed_point = std::move(value);
-      return;
-    case NamedWord::probe:
-    case NamedWord::probe_to_end:
-      extra().has_probe_edge = true;
-      extra_.probe_edge = std::move(value);
-      extra_.probe_goes_on = row->use == NamedWord::probe_to_end;
-      return;
-    case NamedWord::point_weight:
-      extra().has_weight = true;
-      extra_.weight = std::move(value);
-      return;
-    case NamedWord::spline_degree:
-      extra().has_degree = true;
-      extra_.degree = std::move(value);
-      return;
-    case NamedWord::interval:
-      extra().has_interval = true;
-      extra_.interval = std::move(value);
-      return;
     case NamedWord::rotation_in_plane:
       has_rpl_ = true;
       rpl_ = std::move(value);
@@ -149,8 +152,7 @@ void WordLowering::named(const syntax::Block& block, const Word& w) {
     case NamedWord::timing:
     case NamedWord::compensation:
       push(ir::OpaqueWord{c_.slice(w.pos)}, Rank::setting, ir::Order::with, w.pos);
-      c_.note("SIN-009", w.pos, kept_text(name));
-      return;
+      return c_.note("SIN-009", w.pos, kept_text(name));
     case NamedWord::tooth_feed: return tooth_feed(w, value);
     case NamedWord::cutting_speed: return cutting_speed(w, value);
     case NamedWord::unsupported: refuse("block.word", w.pos, name + "= is not carried yet"); return;

@@ -150,20 +150,7 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
       decreasing_lead_ = g.b != 0;
       c_.motion = m.kind;
       break;
-    case GUse::setting:
-      if (static_cast<ir::Setting>(g.a) == ir::Setting::plane) {
-        const ir::Plane plane = c_.machine.geometry.plane(static_cast<ir::Plane>(g.b));
-        if (plane != ir::Plane::xy) c_.other_plane = true;
-        c_.plane = plane;
-        push(ir::ModalSet{ir::Setting::plane, u(plane), true, ir::FeedMemory::shared}, Rank::setting, ir::Order::before,
-             pos);
-        break;
-      }
-      if (static_cast<ir::Setting>(g.a) == ir::Setting::diameter) c_.diameter = static_cast<ir::DiameterMode>(g.b);
-      if (static_cast<ir::Setting>(g.a) == ir::Setting::distance && g.b != 0) c_.increments = true;
-      push(ir::ModalSet{static_cast<ir::Setting>(g.a), g.b, true, ir::FeedMemory::shared}, Rank::setting,
-           ir::Order::before, pos);
-      break;
+    case GUse::setting: setting(static_cast<ir::Setting>(g.a), g.b, pos); break;
     case GUse::units:
       c_.units_by_text = static_cast<ir::Units>(g.a);
       c_.words_in_inches = c_.units_by_text == ir::Units::inch && g.b == 0;
@@ -200,23 +187,30 @@ void WordLowering::g_function(const GFunction& g, WordPos pos) {
       break;
     case GUse::joint:
       push(ir::OpaqueWord{c_.slice(pos)}, Rank::setting, ir::Order::before, pos);
-      if (g.number < 0) {
-        c_.warning("SIN-045", pos,
-                   std::string(g.name) +
-                       ": the axes of the machine move together to the programmed end; the way between the ends is "
-                       "shown as a straight line");
-      } else {
-        c_.warning("SIN-045", pos,
-                   std::string(g.name) +
-                       ": the soft approach or retraction depends on the tool's radius; the move is "
-                       "shown as a straight line to its programmed end");
-      }
+      c_.warning("SIN-045", pos,
+                 std::string(g.name) +
+                     (g.number < 0 ? ": the axes of the machine move together to the programmed end; the way between "
+                                     "the ends is shown as a straight line"
+                                   : ": the soft approach or retraction depends on the tool's radius; the move is "
+                                     "shown as a straight line to its programmed end"));
       break;
     case GUse::tool_frame: tool_frame(g, pos); break;
     case GUse::table_frame: table_frame(pos); break;
     case GUse::own_block:
     case GUse::unsupported: refuse(missing_feature(g), pos, std::string(g.name) + " is not carried yet"); break;
   }
+}
+
+void WordLowering::setting(ir::Setting which, std::uint8_t value, WordPos pos) {
+  if (which == ir::Setting::plane) {
+    const ir::Plane plane = c_.machine.geometry.plane(static_cast<ir::Plane>(value));
+    if (plane != ir::Plane::xy) c_.other_plane = true;
+    c_.plane = plane;
+    value = u(plane);
+  }
+  if (which == ir::Setting::diameter) c_.diameter = static_cast<ir::DiameterMode>(value);
+  if (which == ir::Setting::distance && value != 0) c_.increments = true;
+  push(ir::ModalSet{which, value, true, ir::FeedMemory::shared}, Rank::setting, ir::Order::before, pos);
 }
 
 void WordLowering::feed_mode(const GFunction& g, WordPos pos) {

@@ -71,6 +71,7 @@ class ComputedTurn {
   bool law(const Value& rough, const VarRef& d, const VarRef& n);
   void pass(const Value& d);
   bool thread_by_count();
+  bool counted_starts(const Value& passes, const Value& rough, const Value& stock, const Value& idle, bool falling);
   void counted_pass(const Value& h);
   bool thread_from_here();
   bool groove();

@@ -58,6 +58,12 @@ bool ComputedTurn::thread_by_count() {
   if (alternates_ && !(side_ = variable_of(Value(-1.0)))) return false;
   const Value rough = kept(subtract(depth_, stock));
   rapid({safe_first_, first_q_});
+  return counted_starts(passes, rough, stock, idle, variant > 2);
+}
+
+/// Every start with its passes, `falling`: by the root of their count; then those without infeed.
+bool ComputedTurn::counted_starts(const Value& passes, const Value& rough, const Value& stock, const Value& idle,
+                                  bool falling) {
   const double starts = starts_;
   const Value angle_now = angle_;
   for (double s = 0; s < starts; ++s) {
@@ -74,7 +80,7 @@ bool ComputedTurn::thread_by_count() {
       close_while(outer, more(add(count, Value(0.5)), at), std::move(inner));
     };
     const Value part = quotient(at, passes);
-    loop(passes, times(rough, variant > 2 ? root(part) : part));
+    loop(passes, times(rough, falling ? root(part) : part));
     if (!stock.literal()) {
       If node;
       node.condition = more(stock, Value(least_rest / unit_));

@@ -1,8 +1,11 @@
-#include "legaliser/frames/without_length.h"
+#include "legaliser/frames/machine_moves.h"
 
 #include <algorithm>
 
+#include "base/text.h"
 #include "ir/analysis/flow_states.h"
+#include "legaliser/analysis/words.h"
+#include "legaliser/edit/blocks.h"
 
 namespace cnctrans::ir::passes {
 
@@ -53,7 +56,8 @@ bool across(const Block& b, const Facts& facts, const LegaliseContext& context) 
 
 }  // namespace
 
-WithoutLength::WithoutLength(const Program& program, const LegaliseContext& context, const FactsOf& facts) {
+MachineMoves::MachineMoves(const Program& program, const LegaliseContext& context, const FactsOf& facts)
+    : program_(program), context_(context), facts_(facts) {
   std::set<const Statement*> moves;
   for (const auto& r : program.routines) {
     for_each_statement(r.body, [&moves](const Statement& s) {
@@ -69,8 +73,57 @@ WithoutLength::WithoutLength(const Program& program, const LegaliseContext& cont
     const auto* before = states.before(*s);
     OffDomain::State here = before != nullptr ? *before : OffDomain::State{};
     OffDomain::transfer(*s, here);
-    if (here.off || across(b, facts.before(*s), context)) found_.insert(s->id);
+    if (here.off || across(b, facts.before(*s), context)) without_length_.insert(s->id);
   }
+}
+
+bool MachineMoves::fit(Statement& s, Block& b) const {
+  if (!words(s, b)) return false;
+  const auto& uses = context_.target.frame_uses;
+  if (uses.count(b.motion.frame) != 0) return true;
+  if (b.motion.frame == FrameUse::machine_with_length && uses.count(FrameUse::machine) != 0) {
+    if (!without_length_.contains(s.id))
+      context_.diagnostics.warning(
+          "TRN-321", word_span(s.line.span, b.motion.frame_pos),
+          "a move in machine coordinates that keeps the tool length: the target leaves the length out, so "
+          "the slide stands off by the tool length",
+          "check the height of this move");
+    b.motion.frame = FrameUse::machine;
+    return true;
+  }
+  refuse(s, program_, context_, "TRN-322", "a move in machine coordinates of a kind that the target lacks", {},
+         b.motion.frame_pos);
+  return false;
+}
+
+/// Increments and positions in machine coordinates, by what the modes mean there on both controls. False: refused.
+bool MachineMoves::words(Statement& s, Block& b) const {
+  if (b.motion.frame == FrameUse::no_programmable) return true;
+  const auto positions = [](const machine::Profile& m) {
+    return m.policies.machine_move_words == machine::MachineMoveWords::absolute;
+  };
+  const bool from = positions(context_.source_machine), to = positions(context_.target_machine);
+  const Capabilities& t = context_.target;
+  for (auto& c : b.motion.coords) {
+    if (from && c.mode == WordMode::modal) c.mode = WordMode::absolute;
+    const auto d = distance_of(c, b, facts_.before(s));
+    if (!to) continue;
+    if (d == Distance::incremental) {
+      refuse(s, program_, context_, "TRN-322", "an incremental move in machine coordinates, which the target lacks",
+             "write the position in machine coordinates", c.pos);
+      return false;
+    }
+    if (!d) {
+      context_.diagnostics.warning(
+          "TRN-321", word_span(s.line.span, c.pos),
+          "whether this word in machine coordinates is absolute depends on the path that leads here; the target "
+          "takes it as a machine position",
+          "write the distance mode before this move");
+    }
+    const bool by_block = !t.distance_per_word && !t.distance_inside_block;
+    c.mode = by_block ? WordMode::modal : WordMode::absolute;
+  }
+  return true;
 }
 
 }  // namespace cnctrans::ir::passes
