@@ -179,7 +179,7 @@ struct FeedsBefore::Analysis {
         if (defines_tap(s)) taps.insert(s.id);
       });
     }
-    if (given && at_power_on > 0) power_on = at_power_on;
+    if ((given || !taps.empty()) && at_power_on > 0) power_on = at_power_on;
   }
   GivenDomain domain;
   FlowStates<GivenDomain> states;
@@ -189,7 +189,7 @@ struct FeedsBefore::Analysis {
   FlowStates<MinuteDomain> minutes;
   std::set<std::uint32_t> taps;
   bool given = false;              ///< F stands in the program, or may in what it calls or is called by
-  std::optional<double> power_on;  ///< a feed to go back to, in a program that has F
+  std::optional<double> power_on;  ///< a feed to go back to, in a program that has F, or may get one as a tap's pitch
 };
 
 FeedsBefore::FeedsBefore(const Program& program, const LegaliseContext& context)
@@ -215,10 +215,11 @@ FeedBefore FeedsBefore::at(const Statement& s, const Block& b, const Facts& fact
   }
   if (const auto* state = own || feed.value ? nullptr : analysis_->words.before(s); state != nullptr)
     feed.computed = state->word;
-  if (!own && !analysis_->given) return {std::nullopt, true, {}, {}};
+  const bool metric = setting_in<Units>(b, facts, Setting::units) == Units::metric;
+  if (!own && !analysis_->given) return {metric ? analysis_->power_on : std::nullopt, true, {}, {}};
   const auto* state = own || feed.value ? nullptr : analysis_->states.before(s);
   if (state == nullptr || state->maybe) return feed;
-  if (setting_in<Units>(b, facts, Setting::units) == Units::metric) feed.value = analysis_->power_on;
+  if (metric) feed.value = analysis_->power_on;
   feed.none = !analysis_->power_on;
   return feed;
 }

@@ -12,7 +12,8 @@ namespace cnctrans::ir::passes {
 
 struct FeedBefore {
   std::optional<double> value;    ///< program units, when it is known
-  bool none = false;              ///< surely none has been given: there is nothing to restore
+  /// Surely none has been given: there is nothing to restore but behind a tap whose pitch the target takes as F.
+  bool none = false;
   std::optional<Value> computed;  ///< the word that gave it, when that is no number and still says the same
   /// The F of millimetres per minute, where the control has kept it while another feed mode is in force.
   std::optional<double> per_minute;
