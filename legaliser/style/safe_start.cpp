@@ -140,11 +140,11 @@ class SafeStart {
       hole = hole || (b != nullptr && action_in<CycleDefine>(*b) != nullptr);
       if (b == nullptr || !b->has_motion) continue;
       if (s.line.skip_mask != 0) return false;  // the move behind it may be the first one
-      if (b->motion.kind != MotionKind::modal && b->motion.keeps_modal) return true;
+      // A hole that is reached in rapid whatever function is in force says nothing of it.
+      if (b->motion.kind != MotionKind::modal && b->motion.keeps_modal) return !hole || !holes_in_rapid();
       if (b->motion.kind != MotionKind::modal || !b->motion.moves()) continue;
       if (!b->motion.centers.empty()) return false;  // a straight line beside its centre: no code fits it
-      // A hole that is reached in rapid whatever function is in force says nothing of it.
-      if (hole && context_.target_machine.policies.cycle_positioning == machine::CyclePositioning::rapid) return false;
+      if (hole && holes_in_rapid()) return false;
       b->motion.kind = context_.source_machine.power_on.motion;
       b->motion.explicit_code = true;
       return true;
@@ -152,7 +152,12 @@ class SafeStart {
     return true;
   }
 
-  /// A move without a code that goes by the function in force at power-on, which is another one on the target.
+  [[nodiscard]] bool holes_in_rapid() const {
+    return context_.target_machine.policies.cycle_positioning == machine::CyclePositioning::rapid;
+  }
+
+  /// A move without a code that goes by the function in force at power-on, which is another one on the target; or one
+  /// to a hole, whose code is left out there as it is in force.
   bool motion_from_power_on() {
     const auto own = context_.source_machine.power_on.motion;
     if (own == context_.target_machine.power_on.motion) return false;
@@ -164,9 +169,12 @@ class SafeStart {
     for (const auto& r : program_.routines) {
       for_each_statement(r.body, [&](const Statement& s) {
         const auto* b = std::get_if<Block>(&s.node);
-        if (b == nullptr || !b->has_motion || b->motion.kind != MotionKind::modal || !b->motion.moves()) return;
+        if (b == nullptr || !b->has_motion) return;
         const auto& facts = as_is.before(s.id);
-        if (!facts.reachable) return;
+        const bool hole = holes_in_rapid() && b->motion.kind == facts.motion && b->motion.keeps_modal &&
+                          action_in<CycleDefine>(*b) != nullptr;
+        const bool modal = b->motion.kind == MotionKind::modal && b->motion.moves();
+        if (!facts.reachable || (!hole && !modal)) return;
         found = found || !facts.motion || facts.motion != changed.before(s.id).motion;
       });
     }
