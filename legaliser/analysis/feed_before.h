@@ -11,7 +11,7 @@
 namespace cnctrans::ir::passes {
 
 struct FeedBefore {
-  std::optional<double> value;    ///< program units, when it is known
+  std::optional<double> value;  ///< program units, when it is known
   /// Surely none has been given: there is nothing to restore but behind a tap whose pitch the target takes as F.
   bool none = false;
   std::optional<Value> computed;  ///< the word that gave it, when that is no number and still says the same
