@@ -168,7 +168,7 @@ std::pair<const Value*, const Value*> own_place(const HoleCycle& cycle) {
 
 bool ends_over_its_place(const HoleCycle& cycle, bool own_too) {
   if (cycle.axis != axis::none) return false;
-  if (cycle.kind != HoleKind::mill) return true;
+  if (cycle.kind != HoleKind::mill) return cycle.mill.shape.empty();  // else it goes to where a pocket begins
   if (cycle.mill.shape != "pocket.rect" && cycle.mill.shape != "pocket.circle") return false;
   const auto place = own_place(cycle);
   return own_too || (place.first == nullptr && place.second == nullptr);

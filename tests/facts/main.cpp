@@ -25,7 +25,7 @@ class Facts {
   explicit Facts(Options o) : options_(std::move(o)) {}
 
   int run() {
-    for (const std::string dialect : {"fagor", "num", "sinumerik"}) {
+    for (const std::string dialect : {"fagor", "num", "sinumerik", "heidenhain"}) {
       if (!options_.dialect.empty() && options_.dialect != dialect) continue;
       const auto programs = splice::programs_of(options_.root, dialect);
       if (options_.first == 0) {
@@ -92,7 +92,7 @@ class Facts {
 int main(int argc, char** argv) {
   cnctrans::facts::Options o;
   CLI::App app{"holds the facts of the analysis against the run"};
-  app.add_option("--dialect", o.dialect, "one language; without it all three");
+  app.add_option("--dialect", o.dialect, "one language; without it all four");
   app.add_option("--count", o.count, "splices beside the programs of the repository")->capture_default_str();
   app.add_option("--seed", o.seed, "of the splices")->capture_default_str();
   app.add_option("--first", o.first, "the first index: with --count 1 one splice alone");

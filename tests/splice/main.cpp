@@ -17,8 +17,7 @@ namespace cnctrans::splice {
 
 namespace {
 
-constexpr std::array<const char*, 3> dialects = {"fagor", "num", "sinumerik"};  // programs are made of these
-constexpr std::array<const char*, 4> targets = {"fagor", "num", "sinumerik", "heidenhain"};
+constexpr std::array<const char*, 4> dialects = {"fagor", "num", "sinumerik", "heidenhain"};
 constexpr std::size_t most_attempts = 40;     ///< until a splice is a valid program
 constexpr std::size_t most_questions = 1500;  ///< while a program is cut down
 
@@ -44,7 +43,7 @@ class Splices {
 
   int run() {
     for (const std::string from : dialects) {
-      if (std::none_of(targets.begin(), targets.end(), [&](const auto& to) { return options_.wants(from, to); }))
+      if (std::none_of(dialects.begin(), dialects.end(), [&](const auto& to) { return options_.wants(from, to); }))
         continue;
       const auto programs = programs_of(options_.root, from);
       for (std::uint64_t seed = options_.seed; seed < options_.seed + options_.seeds; ++seed) {
@@ -86,7 +85,7 @@ class Splices {
       begins("reading and running, " + from + " " + name, p.text());
       good = valid(p);
     }
-    for (const std::string to : targets) {
+    for (const std::string to : dialects) {
       if (!options_.wants(from, to) || (to == "heidenhain" && p.lathe)) continue;  // it has no lathe
       Figures& f = figures_[from + "-" + to];
       f.spliced += attempts;

@@ -25,7 +25,8 @@ const Words& words_of(const std::string& dialect) {
   static const Words fagor{{"/", "/1", "/2"}, {"P150", "P151", "P15"}, "XYZIJKRFQABCHLEUVW"};
   static const Words num{{"/"}, {"L15", "L16", "L115"}, "XYZIJKRFABC"};
   static const Words sinumerik{{"/", "/1", "/3"}, {"R50", "R51"}, "XYZIJKFABC"};
-  return dialect == "fagor" ? fagor : dialect == "num" ? num : sinumerik;
+  static const Words heidenhain{{"/"}, {"Q50", "Q51", "Q60"}, "XYZFABC="};
+  return dialect == "fagor" ? fagor : dialect == "num" ? num : dialect == "heidenhain" ? heidenhain : sinumerik;
 }
 
 class Splicer {
@@ -78,6 +79,13 @@ class Splicer {
     return parts.number;
   }
 
+  /// Puts a label before the line.
+  std::string labelled(std::size_t at) {
+    std::string label = std::to_string(next_label_++);
+    insert(at, "LBL " + label);
+    return label;
+  }
+
   void delete_line() {
     const std::size_t at = any();
     if (!frames(lines()[at])) lines().erase(lines().begin() + static_cast<std::ptrdiff_t>(at));
@@ -120,8 +128,12 @@ class Splicer {
   [[nodiscard]] std::vector<Range> numbers_in(const std::string& line) const {
     std::vector<Range> out;
     const bool parameters = is("sinumerik") && line.find('(') != std::string::npos;
-    const auto comment = std::min(line.find(';'), is("num") ? line.find('(') : std::string::npos);
+    const bool signs = is("heidenhain");
+    const auto comment =
+        signs ? std::string::npos : std::min(line.find(';'), is("num") ? line.find('(') : std::string::npos);
     for (std::size_t i = 1; i < std::min(line.size(), comment); ++i) {
+      if (signs && line[i] == ';')
+        i = std::min(line.find('\n', i), line.size() - 1);  // on to the next line of the block
       const auto digit = [&](std::size_t at) {
         return at < line.size() && (std::isdigit(static_cast<unsigned char>(line[at])) != 0 || line[at] == '.');
       };
@@ -130,7 +142,7 @@ class Splicer {
                         (i < 2 || std::isalpha(static_cast<unsigned char>(line[i - 2])) == 0);
       const bool argument = parameters && (before == '(' || before == ',');
       if (!word && !argument) continue;
-      const std::size_t sign = line[i] == '-' ? 1 : 0;
+      const std::size_t sign = line[i] == '-' || (signs && line[i] == '+') ? 1 : 0;
       std::size_t end = i + sign;
       while (digit(end)) ++end;
       if (end == i + sign) continue;
@@ -150,9 +162,15 @@ class Splicer {
     const std::string name = chance_.of(words_.variables);
     const char before = line[r.first - 1];
     const bool argument = before == '(' || before == ',';
-    line.replace(r.first, value.size(), is("sinumerik") && !argument ? "=" + name : is("num") ? " " + name : name);
+    line.replace(r.first, value.size(),
+                 is("sinumerik") && !argument ? "=" + name
+                 : is("num")                  ? " " + name
+                 : is("heidenhain")           ? "+" + name
+                                              : name);
     if (chance_.one_in(6)) return;  // nobody sets it
-    const std::string set = is("fagor") ? "(" + name + "=" + value + ")" : name + "=" + value;
+    const std::string set = is("fagor")        ? "(" + name + "=" + value + ")"
+                            : is("heidenhain") ? "FN 0: " + name + " = " + value
+                                               : name + "=" + value;
     insert(chance_.one_in(2) ? at : std::max<std::size_t>(std::min<std::size_t>(any(), at), 1), set);
   }
 
@@ -163,6 +181,17 @@ class Splicer {
                lines().begin() + static_cast<std::ptrdiff_t>(r.last) + 1);
     lines().erase(lines().begin() + static_cast<std::ptrdiff_t>(r.first),
                   lines().begin() + static_cast<std::ptrdiff_t>(r.last) + 1);
+    if (is("heidenhain")) {
+      part.insert(part.begin(), "LBL " + number);
+      part.emplace_back("LBL 0");
+      const auto ends = [](const std::string& line) { return line.rfind("END PGM", 0) == 0; };
+      const auto stops = [](const std::string& line) { return line == "M30" || line == "M2" || line == "M02"; };
+      if (std::none_of(lines().begin(), lines().end(), stops))
+        part.insert(part.begin(), "M30");  // the program does not run into it
+      const auto end = std::find_if(lines().begin(), lines().end(), ends);
+      lines().insert(end, part.begin(), part.end());
+      return number;
+    }
     if (is("fagor")) lines().push_back("(SUB " + number + ")");
     if (is("num")) lines().push_back("%" + number);
     if (is("sinumerik")) lines().push_back("%_N_L" + number + "_SPF");
@@ -188,13 +217,14 @@ class Splicer {
     if (is("fagor")) call = "(CALL " + number + ")";
     if (is("num")) call = "G77 H" + number + (times.empty() ? "" : " S" + times);
     if (is("sinumerik")) call = "L" + number + (times.empty() ? "" : " P" + times);
+    if (is("heidenhain")) call = "CALL LBL " + number;
     insert(at, call);
-    if (is("fagor") && !times.empty()) insert(at, call);
+    if ((is("fagor") || is("heidenhain")) && !times.empty()) insert(at, call);
     if (chance_.one_in(3)) insert(std::max<std::size_t>(any(), at), call);
     name_archive(at);
   }
   void modal_call() {
-    if (is("num")) return subprogram();
+    if (is("num") || is("heidenhain")) return subprogram();
     const Range r = some(3);
     if (frames(lines()[r.first])) return;
     std::size_t at = r.first;
@@ -217,6 +247,9 @@ class Splicer {
       insert(r.first, "B" + n + ":");
       call = "REPEAT B" + n + " E" + n + (chance_.one_in(2) ? " P=2" : "");
       at += 2;
+    } else if (is("heidenhain")) {
+      call = "CALL LBL " + labelled(r.first) + (chance_.one_in(2) ? " REP 2" : " REP 1");
+      ++at;
     } else {
       const std::string first = number_of(r.first), last = number_of(r.last);
       if (is("fagor")) call = "(RPT " + first + "," + last + ")" + (chance_.one_in(2) ? " N2" : "");
@@ -233,6 +266,13 @@ class Splicer {
       if (!counted) insert(r.last + 1, "R59=R59+1");
       insert(r.first, counted ? "FOR R59=1 TO 2" : "WHILE R59<2");
       if (!counted) insert(r.first, "R59=0");
+      return;
+    }
+    if (is("heidenhain")) {
+      insert(r.last + 1, "FN 1: Q59 = +Q59 + +1");
+      const std::string label = labelled(r.first);
+      insert(r.last + 3, "FN 12: IF +Q59 LT +2 GOTO LBL " + label);
+      insert(r.first, "FN 0: Q59 = +0");
       return;
     }
     const std::string number = number_of(r.first);
@@ -254,6 +294,10 @@ class Splicer {
       insert(r.first, "IF R58==0");
       return;
     }
+    if (is("heidenhain")) {
+      insert(r.first, "FN 9: IF +Q58 EQU +1 GOTO LBL " + labelled(r.last + 1));
+      return;
+    }
     const std::string number = number_of(r.last + 1);
     insert(r.first, is("fagor") ? "(IF P158 EQ 1 GOTO " + number + ")" : "G79 L118=1 " + number);
   }
@@ -263,7 +307,7 @@ class Splicer {
   Chance& chance_;
   const Words& words_;
   int next_number_ = 9001;
-  int next_sub_ = 1;
+  int next_sub_ = 1, next_label_ = 501;
 };
 
 }  // namespace

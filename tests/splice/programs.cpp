@@ -26,6 +26,27 @@ std::vector<std::string> lines_of(const std::string& text) {
   return out;
 }
 
+/// The blocks of a language whose blocks may be several lines: `CYCL DEF 7.1 X+10` goes on with 7.0, and a line behind
+/// `~`. Without their numbers.
+std::vector<std::string> blocks_of(const std::string& text) {
+  std::vector<std::string> out;
+  for (const auto& line : lines_of(text)) {
+    const auto begin = line.find_first_not_of("0123456789 ");
+    const std::string block = line.substr(std::min(begin, line.size()));
+    const bool open = !out.empty() && trim(out.back()).ends_with('~');
+    const auto point = block.rfind("CYCL DEF ", 0) == 0 ? block.find_first_of(". ", 9) : std::string::npos;
+    const bool part = point != std::string::npos && block[point] == '.' && block.compare(point, 2, ".0") != 0;
+    if (open || (part && !out.empty()))
+      out.back() += '\n' + (open ? line : block);
+    else
+      out.push_back(block);
+  }
+  return out;
+}
+std::vector<std::string> program_lines(const std::string& dialect, const std::string& text) {
+  return dialect == "heidenhain" ? blocks_of(text) : lines_of(text);
+}
+
 bool is_lathe(const Program& p) {
   std::string ignored;
   const auto source = SourceText::from_string("program", p.text());
@@ -65,7 +86,7 @@ void add_catalogue(const std::string& root, const std::string& dialect, std::vec
       };
       if (starts("refuses:") || starts("option:") || starts("data:")) continue;
       out.push_back({dialect, starts("machine: " + dialect + "-lathe"),
-                     path.substr(root.size() + 1) + ":" + std::to_string(s.line), lines_of(s.fence)});
+                     path.substr(root.size() + 1) + ":" + std::to_string(s.line), program_lines(dialect, s.fence)});
     }
   }
 }
@@ -81,7 +102,7 @@ void add_files(const std::string& root, const std::string& folder, const std::st
   for (const auto& path : testing::files_below(root + folder + dialect, {""})) {
     const std::string name = fs::path(path).filename().string();
     if (name.find("README") != std::string::npos || to_upper_ascii(path).ends_with(".SPF")) continue;
-    Program p{dialect, false, path.substr(root.size() + 1), lines_of(testing::read_file(path))};
+    Program p{dialect, false, path.substr(root.size() + 1), program_lines(dialect, testing::read_file(path))};
     if (!called.empty() && !p.lines.empty() && p.lines.front().rfind("%_N_", 0) != 0) {
       p.lines.insert(p.lines.begin(), "%_N_MAIN_MPF");
       p.lines.insert(p.lines.end(), called.begin(), called.end());
@@ -96,14 +117,16 @@ void add_files(const std::string& root, const std::string& folder, const std::st
 Program framed(const std::string& dialect, bool lathe, const std::string& snippet) {
   Program p{dialect, lathe, {}, {}};
   const auto split = snippet.find("---\n");
-  auto main = lines_of(snippet.substr(0, split));
-  const auto rest = split == std::string::npos ? std::vector<std::string>{} : lines_of(snippet.substr(split + 4));
+  auto main = program_lines(dialect, snippet.substr(0, split));
+  const auto rest =
+      split == std::string::npos ? std::vector<std::string>{} : program_lines(dialect, snippet.substr(split + 4));
   const auto defined =
       std::find_if_not(main.begin(), main.end(), [](const auto& l) { return l.rfind("DEF ", 0) == 0; });
   const bool archive = dialect == "sinumerik" && !rest.empty();
   if (dialect == "fagor") p.lines = {"%PAIR ,MX,"};
   if (dialect == "num") p.lines = {"%100 (PAIR)"};
   if (archive) p.lines = {"%_N_MAIN_MPF"};
+  if (dialect == "heidenhain") p.lines = {"BEGIN PGM PAIR MM"};
   p.lines.insert(p.lines.end(), main.begin(), defined);
   if (dialect == "fagor")
     p.lines.emplace_back(lathe ? "G18 G40 G05 G71 G90 G95 G151 G97 M41" : "G17 G40 G05 G71 G90 G94 M41");
@@ -113,6 +136,7 @@ Program framed(const std::string& dialect, bool lathe, const std::string& snippe
   p.lines.insert(p.lines.end(), defined, main.end());
   p.lines.emplace_back(dialect == "num" ? "M02" : "M30");
   p.lines.insert(p.lines.end(), rest.begin(), rest.end());
+  if (dialect == "heidenhain") p.lines.emplace_back("END PGM PAIR MM");
   return p;
 }
 
@@ -124,7 +148,7 @@ std::string Program::text() const {
 
 std::string Program::file_name() const {
   if (dialect == "fagor") return lathe ? "000100.pit" : "000100.pim";
-  return dialect == "num" ? "100.xpi" : "main.mpf";
+  return dialect == "num" ? "100.xpi" : dialect == "heidenhain" ? "main.h" : "main.mpf";
 }
 
 std::vector<Program> programs_of(const std::string& root, const std::string& dialect) {
@@ -177,8 +201,9 @@ std::string joined(const LineParts& parts) {
 }
 
 bool frames(std::string_view line) {
-  static constexpr std::array<std::string_view, 13> heads = {"%",   "(SUB", "(RET", "M30", "M02",    "M2", "M17",
-                                                             "M99", "RET",  "PROC", "DEF", "EXTERN", ":"};
+  static constexpr std::array<std::string_view, 17> heads = {"%",   "(SUB",      "(RET",    "M30",  "M02",     "M2",
+                                                             "M17", "M99",       "RET",     "PROC", "DEF",     "EXTERN",
+                                                             ":",   "BEGIN PGM", "END PGM", "LBL",  "BLK FORM"};
   const std::string rest = parts_of(line).rest;
   const auto begins = [&rest](std::string_view head) {
     if (rest.rfind(head, 0) != 0) return false;
