@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "dialects/options.h"
 #include "frontends/common/word_scanner.h"
 #include "interpreter/program/interpreter.h"
 #include "translator/files/registry.h"
@@ -30,8 +31,8 @@ struct Setup {
   std::vector<std::string> lines = cam_lines(10000);
   Setup() {
     std::string error;
-    source = *machine::load("fagor-mill", &error);
-    target = *machine::load("sinumerik-mill", &error);
+    source = *dialects::load_profile("fagor-mill", &error);
+    target = *dialects::load_profile("sinumerik-mill", &error);
   }
 };
 const Setup& setup() {

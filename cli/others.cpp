@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "cli/common.h"
+#include "dialects/options.h"
 #include "ir/text/text.h"
 #include "legaliser/pipeline/pipeline.h"
 #include "translator/files/loader.h"
@@ -74,7 +75,7 @@ int print_legalised_ir(const Arguments& a, const translator::TranslateOptions& o
   if (!diagnostics.has_errors()) {
     ir::number_statements(program);
     const std::string own = program.dialect + (program.lathe ? "-lathe" : "-mill");
-    const auto profile = machine::load(options.machine.empty() ? own : options.machine, &error);
+    const auto profile = dialects::load_profile(options.machine.empty() ? own : options.machine, &error);
     const auto target =
         profile ? translator::choose_target(*to, options.target_machine, *profile, &error) : std::nullopt;
     if (!target) return usage_error(a, error);

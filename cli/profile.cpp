@@ -8,7 +8,7 @@
 #include "base/nearest.h"
 #include "base/text.h"
 #include "cli/common.h"
-#include "machine/options.h"
+#include "dialects/options.h"
 #include "machine/profile.h"
 
 namespace cnctrans::cli {
@@ -23,7 +23,7 @@ bool is_builtin(const std::string& name) {
 /// What load() says, with the built-in name that was probably meant.
 std::optional<machine::Profile> loaded(const Arguments& a, const std::string& name) {
   std::string error;
-  auto profile = machine::load(name, &error);
+  auto profile = dialects::load_profile(name, &error);
   if (profile) return profile;
   a.messages->say(Severity::error, "CNC-USAGE", "cnctrans: " + error + did_you_mean(name, machine::builtin_names()));
   return std::nullopt;
@@ -76,8 +76,9 @@ int check_profile(const Arguments& a, const machine::Profile& p) {
 
 /// Every option with what it means, what it takes, and what it is on this machine.
 int options_of(const machine::Profile& p) {
-  for (const auto& o : machine::option_specs()) {
-    const std::string value = p.option(o.name, o.fallback);
+  for (const auto& o : dialects::options().rows()) {
+    const auto set = p.options.find(std::string(o.name));
+    const std::string value = set == p.options.end() ? std::string(o.fallback) : set->second;
     write_all(stdout,
               fmt::format("{} = {}{}\n    {}\n    takes: {}\n", o.name, value.empty() ? "(empty)" : value,
                           value == o.fallback ? "" : fmt::format("   (usual: {})", o.fallback), o.meaning, o.values));

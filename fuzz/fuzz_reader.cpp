@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "dialects/options.h"
 #include "interpreter/program/interpreter.h"
 #include "ir/text/text.h"
 #include "translator/pipeline.h"
@@ -12,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace cnctrans;
   static const auto* dialect = translator::find_dialect(FUZZ_DIALECT);
   std::string error;
-  static const auto profile = machine::load(std::string(FUZZ_DIALECT) + "-mill", &error);
+  static const auto profile = dialects::load_profile(std::string(FUZZ_DIALECT) + "-mill", &error);
   if (dialect == nullptr || !profile) std::abort();
   const auto source = SourceText::from_string("fuzz", std::string(reinterpret_cast<const char*>(data), size));
   FileTable files;

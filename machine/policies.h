@@ -57,6 +57,8 @@ enum class StopSpindle : std::uint8_t { goes_on, stops };
 enum class ThreadPitch : std::uint8_t { each_block, modal };
 enum class ThreadStartAngle : std::uint8_t { block, modal };
 enum class ToolBareOffset : std::uint8_t { kept, table, edge };
+/// A T carries the change out, or a command behind it does.
+enum class ToolChange : std::uint8_t { on_select, by_command };
 enum class ToolLengthAxis : std::uint8_t { tool, plane };
 enum class ToolOffset : std::uint8_t { row, edge };
 enum class WorkOffsetWrite : std::uint8_t { on_select, at_once };
@@ -119,18 +121,24 @@ struct Policies {
   MachineMoveUnits machine_move_units = MachineMoveUnits::modal;
   MachineMoveWords machine_move_words = MachineMoveWords::modal;
   MachinePositionScale machine_position_scale = MachinePositionScale::radius;
+  /// Variables that a number names (R parameters): how many the machine has; 0: as many as the language knows.
+  double numbered_variables = 0;
   double path_curve_tolerance = 0.001;
   bool polar_plane_resets_pole = false;
   bool polar_pole_follows_arc = false;
   bool polar_pole_stays = false;
   PolarRadius polar_radius = PolarRadius::present;
   RotaryDirection rotary_direction = RotaryDirection::by_sign;
+  bool rotary_rollover = false;    ///< of every rotary axis: the sign of an absolute word is its direction
+  std::string rotary_signed_axes;  ///< letters of the axes on which it is; "-" for none
   RoundUpNegative round_up_negative = RoundUpNegative::stated;
   RunFaults run_faults = RunFaults::before;
+  std::string spindle_default_gear;  ///< word of the gear that is written where the source has none
   StopSpindle stop_spindle = StopSpindle::goes_on;
   ThreadPitch thread_pitch = ThreadPitch::each_block;
   ThreadStartAngle thread_start_angle = ThreadStartAngle::block;
   ToolBareOffset tool_bare_offset = ToolBareOffset::kept;
+  ToolChange tool_change = ToolChange::by_command;
   ToolLengthAxis tool_length_axis = ToolLengthAxis::tool;
   ToolOffset tool_offset = ToolOffset::row;
   std::string tool_radius_data;

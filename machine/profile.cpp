@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "machine/options.h"
-
 namespace cnctrans::machine {
 
 const AxisSpec* Profile::axis(ir::AxisId id) const {
@@ -14,13 +12,6 @@ const AxisSpec* Profile::axis(ir::AxisId id) const {
 const MCode* Profile::m_code(std::int32_t code) const {
   const auto it = std::find_if(m_codes.begin(), m_codes.end(), [code](const MCode& m) { return m.code == code; });
   return it == m_codes.end() ? nullptr : &*it;
-}
-
-std::string Profile::option(std::string_view key, std::string_view fallback) const {
-  if (const auto it = options.find(std::string(key)); it != options.end()) return it->second;
-  if (!fallback.empty()) return std::string(fallback);
-  const auto* spec = find_option(key);
-  return spec == nullptr ? std::string{} : std::string(spec->fallback);
 }
 
 }  // namespace cnctrans::machine

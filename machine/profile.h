@@ -15,6 +15,8 @@
 
 namespace cnctrans::machine {
 
+class OptionTable;
+
 enum class Kind : std::uint8_t { mill, lathe };
 
 struct AxisSpec {
@@ -82,7 +84,7 @@ struct Profile {
   std::map<std::int32_t, std::map<ir::AxisId, double>> work_offsets;
   /// Values of machine data that only this machine knows, by the name a program reads them under ("FRO", "PLCM12").
   std::map<std::string, double> data;
-  /// Options as the profile writes them ("frame.preset" = "own"); set_option (options.h) keeps `policies` with them.
+  /// Options as the profile writes them ("frame.preset" = "own"); OptionTable::set keeps `policies` with them.
   std::map<std::string, std::string> options;
   Policies policies;
   double max_rapid = 10000;     ///< mm/min, for reports only
@@ -91,15 +93,14 @@ struct Profile {
 
   [[nodiscard]] const AxisSpec* axis(ir::AxisId id) const;
   [[nodiscard]] const MCode* m_code(std::int32_t code) const;
-  /// The text of an option, for those that a language alone reads and for comparisons by name.
-  [[nodiscard]] std::string option(std::string_view name, std::string_view fallback = {}) const;
 };
 
 /// Built-in profiles are compiled in from machine/profiles/*.json.
 std::vector<std::string> builtin_names();
 /// A built-in name or a path to a JSON file. nullopt and a message in `error` otherwise.
-std::optional<Profile> load(const std::string& name_or_path, std::string* error);
-std::optional<Profile> from_json(std::string_view text, std::string* error);
+/// `options`: every option that it may set, the languages' own among them.
+std::optional<Profile> load(const std::string& name_or_path, const OptionTable& options, std::string* error);
+std::optional<Profile> from_json(std::string_view text, const OptionTable& options, std::string* error);
 std::string to_json(const Profile& profile);
 
 }  // namespace cnctrans::machine

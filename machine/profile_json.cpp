@@ -253,7 +253,7 @@ void data_json(const Profile& p, nlohmann::ordered_json& j) {
   }
 }
 
-void read_options(const json& object, Profile& p) {
+void read_options(const json& object, const OptionTable& options, Profile& p) {
   if (!object.is_object()) fail("options must be an object");
   for (const auto& item : object.items()) {
     std::string value;
@@ -265,32 +265,32 @@ void read_options(const json& object, Profile& p) {
       value = item.value().dump();
     }
     std::string error;
-    if (!set_option(p, item.key(), value, &error)) fail(error);
+    if (!options.set(p, item.key(), value, &error)) fail(error);
   }
 }
 
-Profile read_profile(const json& root, bool is_builtin);
+Profile read_profile(const json& root, const OptionTable& options, bool is_builtin);
 
-std::optional<Profile> builtin(const std::string& name) {
+std::optional<Profile> builtin(const std::string& name, const OptionTable& options) {
   for (std::size_t i = 0; i < builtin_profiles_count; ++i) {
-    if (builtin_profiles[i].name == name) return read_profile(json::parse(builtin_profiles[i].text), true);
+    if (builtin_profiles[i].name == name) return read_profile(json::parse(builtin_profiles[i].text), options, true);
   }
   return std::nullopt;
 }
 
-Profile base_profile(const json& name) {
+Profile base_profile(const json& name, const OptionTable& options) {
   if (!name.is_string()) fail("extends must be a text");
   const auto text = name.get<std::string>();
-  auto p = builtin(text);
+  auto p = builtin(text, options);
   if (!p) fail("extends names no built-in profile: \"" + text + "\"");
   return *p;
 }
 
 /// A machine that is described from the ground up still has the habits of its control: state of power-on, order of the
 /// frame, M functions, options. What the built-in machine consists of (axes, assumed data) is not inherited.
-Profile habits_of(const std::string& dialect, Kind kind) {
+Profile habits_of(const std::string& dialect, Kind kind, const OptionTable& options) {
   if (dialect.empty()) fail("profile lacks \"dialect\" (or \"extends\")");
-  auto p = builtin(dialect + "-" + std::string(word_of(kind_words, kind)));
+  auto p = builtin(dialect + "-" + std::string(word_of(kind_words, kind)), options);
   if (!p) fail("dialect names no language: \"" + dialect + "\"");
   forget_data_at_rest(*p);
   p->axes.clear();
@@ -298,11 +298,11 @@ Profile habits_of(const std::string& dialect, Kind kind) {
   return *p;
 }
 
-Profile read_profile(const json& root, bool is_builtin) {
+Profile read_profile(const json& root, const OptionTable& options, bool is_builtin) {
   Reader r(root, "profile");
   Profile p;
   r.find("$schema");
-  if (const auto* base = r.find("extends")) p = base_profile(*base);
+  if (const auto* base = r.find("extends")) p = base_profile(*base, options);
   const Profile base = p;
   r.text("dialect", p.dialect);
   r.word("kind", kind_words, p.kind);
@@ -310,7 +310,9 @@ Profile read_profile(const json& root, bool is_builtin) {
     if (p.dialect != base.dialect) fail("dialect is not that of the profile it extends: \"" + p.dialect + "\"");
     if (p.kind != base.kind) fail("kind is not that of the profile it extends");
   } else if (!is_builtin) {
-    p = habits_of(p.dialect, p.kind);
+    p = habits_of(p.dialect, p.kind, options);
+  } else {
+    options.begin(p);
   }
   r.text("name", p.name);
   if (const auto* j = r.find("axes")) read_axes(*j, p);
@@ -323,7 +325,7 @@ Profile read_profile(const json& root, bool is_builtin) {
   if (const auto* j = r.find("data")) read_data(*j, p);
   if (const auto* j = r.find("data_at_rest")) read_data_at_rest(*j, p);
   if (const auto* j = r.find("data_of_run")) read_data_of_run(*j, p);
-  if (const auto* j = r.find("options")) read_options(*j, p);
+  if (const auto* j = r.find("options")) read_options(*j, options, p);
   r.number("max_rapid", p.max_rapid);
   r.number("arc_tolerance", p.arc_tolerance);
   r.number("call_depth", p.call_depth);
@@ -362,9 +364,9 @@ json power_on_json(const ir::ModalState& state) {
 
 }  // namespace
 
-std::optional<Profile> from_json(std::string_view text, std::string* error) {
+std::optional<Profile> from_json(std::string_view text, const OptionTable& options, std::string* error) {
   try {
-    return read_profile(json::parse(text), false);
+    return read_profile(json::parse(text), options, false);
   } catch (const Fault& f) {
     *error = f.text;
   } catch (const json::exception& e) {
@@ -420,9 +422,9 @@ std::vector<std::string> builtin_names() {
   return names;
 }
 
-std::optional<Profile> load(const std::string& name_or_path, std::string* error) {
+std::optional<Profile> load(const std::string& name_or_path, const OptionTable& options, std::string* error) {
   try {
-    if (auto p = builtin(name_or_path)) return p;
+    if (auto p = builtin(name_or_path, options)) return p;
   } catch (const Fault& f) {
     *error = f.text;
     return std::nullopt;
@@ -432,7 +434,7 @@ std::optional<Profile> load(const std::string& name_or_path, std::string* error)
     *error = "there is no built-in machine and no readable file \"" + name_or_path + "\": " + *error;
     return std::nullopt;
   }
-  auto p = from_json(source->text(), error);
+  auto p = from_json(source->text(), options, error);
   if (!p) *error = name_or_path + ": " + *error;
   return p;
 }

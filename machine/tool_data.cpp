@@ -25,9 +25,4 @@ std::vector<std::string> tool_data_names(std::string_view list, std::optional<st
   return out;
 }
 
-bool changes_on_select(const Profile& machine) {
-  const std::string how = machine.option(machine.dialect + ".tool_change");
-  return !how.empty() && how != "m6";
-}
-
 }  // namespace cnctrans::machine

@@ -16,7 +16,4 @@ namespace cnctrans::machine {
 std::vector<std::string> tool_data_names(std::string_view list, std::optional<std::int32_t> tool,
                                          std::optional<std::int32_t> offset);
 
-/// T carries out the tool change (turret, or a control set up so), and M6 has nothing left to do.
-bool changes_on_select(const Profile& machine);
-
 }  // namespace cnctrans::machine

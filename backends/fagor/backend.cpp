@@ -5,6 +5,7 @@
 #include "backends/fagor/tables.h"
 #include "backends/fagor/writer.h"
 #include "dialects/fagor/axis_exchange.h"
+#include "dialects/fagor/options.h"
 #include "ir/analysis/domains/mirrored_presets.h"
 #include "ir/edit/search.h"
 
@@ -52,7 +53,7 @@ ir::Program with_written_axes(const ir::Program& program) {
 /// A preset says the mirrored coordinate in the IR; G92 takes the one that counts without the mirror image (7.5).
 std::optional<ir::Program> with_plain_presets(const ir::Program& program, const machine::Profile& profile,
                                               Diagnostics& diagnostics) {
-  if (profile.option("fagor.g92_mirror", "untouched") == "through") return std::nullopt;
+  if (dialects::fagor::options_of(profile).g92_mirror == dialects::fagor::PresetOfMirror::through) return std::nullopt;
   ir::Program out = program;
   const bool any = ir::passes::presets_past_mirrors(
       out,

@@ -46,7 +46,7 @@ bool Writer::absolute_center(const ir::CenterWord& c) {
 
 /// The sign of an absolute rotary word is its direction (3.7).
 bool Writer::rollover() const {
-  return profile().option("fagor.rotary_rollover") == "yes";
+  return profile().policies.rotary_rollover;
 }
 
 /// On a rollover axis a plain word is a place and its sign a direction, and whether the axis is one nobody knows here.

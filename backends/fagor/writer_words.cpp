@@ -295,8 +295,7 @@ void Writer::spindle_gear(const ir::Action& a, const ir::SpindleGear& s) {
 void Writer::tool_select(const ir::Action& a, const ir::ToolSelect& t) {
   if (!t.name.empty()) return refuse(no_word, a.pos, "a tool called by its name has no counterpart here");
   add(word("T", t.number, a.pos), Rank::tool, a.pos);
-  const std::string how = profile().option("fagor.tool_change");
-  const bool at_once = !how.empty() && how != "m6";
+  const bool at_once = profile().policies.tool_change == machine::ToolChange::on_select;
   if (same_dialect() || t.changes == at_once) return;
   if (t.changes) return tool_change(a);
   refuse(no_word, a.pos, "a tool that is selected before its change: T changes at once on the target machine");

@@ -31,8 +31,7 @@ bool native_pocket(const ir::HoleCycle& c) {
 
 void Writer::pocket(const ir::Action& a, const ir::HoleCycle& c) {
   const bool thread = c.mill.shape == "thread.chased";
-  const auto option = [this](std::string_view name) { return profile().option(name); };
-  if (thread && other_habits(a, c.mill.words, facts::thread_habits(option))) return;
+  if (thread && other_habits(a, c.mill.words, facts::thread_habits(own_options_))) return;
   add(a.text.empty() || !same_dialect() ? thread ? "G31" : "G45" : std::string(a.text), Rank::setting, a.pos);
   const auto plane = setting(ir::Setting::plane);
   const ir::AxisId axis = plane ? ir::plane_axes(static_cast<ir::Plane>(*plane)).w : ir::axis::z;

@@ -205,15 +205,15 @@ const ir::Capabilities& capabilities(bool lathe, bool later, bool structured) {
 }
 
 bool structured(const machine::Profile& profile) {
-  return later_family(profile) && profile.option(facts::option::structured) == "yes";
+  return later_family(profile) && facts::options_of(profile).structured;
 }
 
 bool centre_from_start(const machine::Profile& profile) {
-  return profile.option(facts::option::centre) == "incremental";
+  return facts::options_of(profile).centre == facts::ArcCentre::incremental;
 }
 
 bool later_family(const machine::Profile& profile) {
-  return profile.option(facts::option::family) != "7xx";
+  return facts::options_of(profile).family != facts::Family::n7xx;
 }
 
 bool native_hole(const ir::HoleCycle& c) {

@@ -87,17 +87,15 @@ bool Writer::turning_cycle(const ir::Action& a, const ir::NamedCycle& c) {
                                                               : "";
   if (code.empty()) return false;
   const bool by_p = std::any_of(c.words.begin(), c.words.end(), [](const auto& w) { return w.first == "step"; });
-  const auto option = [this](std::string_view name) { return profile().option(name); };
-  if (code == "G63" && other_habits(a, c.words, facts::reentrant_habits(option))) return true;
-  if (code == "G66" && other_habits(a, c.words, facts::plunge_habits(option, by_p))) return true;
+  if (code == "G63" && other_habits(a, c.words, facts::reentrant_habits(own_options_))) return true;
+  if (code == "G66" && other_habits(a, c.words, facts::plunge_habits(own_options_, by_p))) return true;
   if (code == "G66") {  // the distance between the edges of its tool is no word
     const auto it = std::find_if(c.words.begin(), c.words.end(), [](const auto& w) { return w.first == "width"; });
     const double unit = setting(ir::Setting::units) == static_cast<std::uint8_t>(ir::Units::inch) ? 25.4 : 1;
     const double theirs = it == c.words.end() ? 0 : it->second.number * unit;
-    if (std::abs(theirs - parse_decimal(option(facts::option::plunged_width)).value_or(0)) > 1e-6) {
+    if (std::abs(theirs - parse_decimal(own_options_.plunged_width).value_or(0)) > 1e-6) {
       refuse("TRN-691", a.pos,
-             "the plunges of this cycle follow from " + std::string(facts::option::plunged_width) +
-                 ", and the target's machine profile sets it otherwise",
+             "the plunges of this cycle follow from num.g66_width, and the target's machine profile sets it otherwise",
              "set the same in both profiles");
       return true;
     }

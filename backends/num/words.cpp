@@ -233,7 +233,7 @@ void Writer::coordinate(const ir::Motion& m, const ir::CoordWord& w) {
   if (w.direction != ir::RotaryDirection::as_value && !turning_by_sign)
     return refuse(no_word, w.pos, "the direction of this rotary move has no counterpart here");
   if (ir::is_rotary_letter(w.axis) && !turning_by_sign && !increment(w)) {  // an increment has its sign (6.12)
-    const std::string modulo = profile().option(facts::option::rotary_modulo);
+    const std::string& modulo = profile().policies.rotary_signed_axes;
     const bool safe = w.value.literal() && w.value.number >= 0 && w.value.number < 360;
     if (modulo.find(axis_name(w.axis)) != std::string::npos && !safe) {
       return refuse(no_word, w.pos,
@@ -376,7 +376,7 @@ void Writer::hole_levels(const ir::Action& a, const ir::HoleCycle& c) {
   if (!later_family(profile()))
     return refuse(no_cycle, a.pos, "this control has no separate plane where the feed starts (EH)",
                   "use --cycles=explode");
-  const bool up = profile().option(facts::option::peck_withdraw) == "ER";
+  const bool up = own_options_.peck_withdraw == facts::PeckWithdraw::er;
   if (c.kind == ir::HoleKind::peck_full && !same_dialect() && up != c.pecks.withdraws_to_retract)
     return refuse(no_cycle, a.pos, "between its pecks this cycle withdraws to another height (num.g83_withdraw)",
                   "use --cycles=explode");

@@ -18,6 +18,7 @@ constexpr std::string_view no_statement = "TRN-201";
 
 Writer::Writer(const ir::Program& program, const WriteOptions& options, Diagnostics& diagnostics)
     : ProgramWriter(program, options, num::style(), diagnostics),
+      own_options_(facts::options_of(profile())),
       printer_(program, expression_style(), NumberFormat{8, 8, program.dialect == "num"}) {}
 
 std::int64_t Writer::main_number() const {

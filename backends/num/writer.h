@@ -8,6 +8,7 @@
 #include "backends/common/program_writer.h"
 #include "backends/num/chain_printer.h"
 #include "dialects/num/assumed_cycles.h"
+#include "dialects/num/options.h"
 
 namespace cnctrans::backends::num {
 
@@ -68,6 +69,7 @@ class Writer final : public ProgramWriter {
   bool joins(const ir::Statement& before, const ir::Statement& next) override;
 
  private:
+  const dialects::num::Options own_options_;  ///< of the target machine
   void write_routine(std::size_t index, std::int64_t number);
   void open_called(const FileGroup& group, const std::string& main_stem);
   [[nodiscard]] std::int64_t main_number() const;

@@ -22,24 +22,20 @@ struct CycleHabits {
   std::string_view in_words;  ///< for people: the moves that are assumed
 };
 
-template <class Option>
-CycleHabits thread_habits(const Option& profile_option) {
-  const std::string radial = profile_option(option::chased_radial), back = profile_option(option::chased_back);
+inline CycleHabits thread_habits(const Options& options) {
+  const std::string& radial = options.chased_radial;
   const double axis = radial == "1+" ? 1 : radial == "1-" ? 2 : radial == "2+" ? 3 : radial == "2-" ? 4 : 0;
-  return {option::chased_radial,
+  return {"num.g31",
           !radial.empty(),
           {"radial", axis},
-          {"back", back == "middle"     ? 1.0
-                   : back == "reversed" ? 2.0
-                                        : 0.0},
+          {"back", static_cast<double>(options.chased_back)},
           "the tool sets the depth of each pass itself (passes as in G33), and comes back with the spindle stopped at "
           "EC, 2 mm aside"};
 }
 
-template <class Option>
-CycleHabits reentrant_habits(const Option& profile_option) {
-  const std::string start = profile_option(option::reentrant);
-  return {option::reentrant,
+inline CycleHabits reentrant_habits(const Options& options) {
+  const std::string& start = options.reentrant;
+  return {"num.g63",
           !start.empty(),
           {"variant", start == "tool" ? 1.0 : 0.0},
           {{}, 0, false},
@@ -48,14 +44,13 @@ CycleHabits reentrant_habits(const Option& profile_option) {
 }
 
 /// `by_p`: the step is P, radial.
-template <class Option>
-CycleHabits plunge_habits(const Option& profile_option, bool by_p) {
-  const std::string first = profile_option(option::plunged), along = profile_option(option::plunged_axis);
-  const double variant = (first == "from_end" ? 1 : 0) + (profile_option(option::plunged_steps) == "whole" ? 10 : 0) +
-                         (profile_option(option::plunged_back) == "feed" ? 100 : 0);
-  const bool along_z = along == "z" || (along != "x" && by_p);
-  return {option::plunged,
-          !first.empty(),
+inline CycleHabits plunge_habits(const Options& options, bool by_p) {
+  const double variant = (options.plunged == "from_end" ? 1 : 0) +
+                         (options.plunged_steps == PlungeSteps::whole ? 10 : 0) +
+                         (options.plunged_back == PlungeBack::feed ? 100 : 0);
+  const bool along_z = options.plunged_axis == PlungeAxis::z || (options.plunged_axis == PlungeAxis::by_step && by_p);
+  return {"num.g66",
+          !options.plunged.empty(),
           {"variant", variant},
           {"main_axis", along_z ? 1.0 : 0.0},
           "P steps along X and plunges along Z, R the other way round; equal steps from the place of the tool to X Z, "

@@ -1,20 +1,128 @@
-// Names of the options of a NUM machine profile (reference 1): where the manual is silent, or controls differ. Their
-// values and meanings: machine/options.cpp.
+// The options of a NUM (reference 1) machine profile: where the manual is silent, or machines differ. Each names its
+// values, what holds when the profile does not say, and its meaning.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <string>
 #include <string_view>
+
+#include "machine/options.h"
 
 namespace cnctrans::dialects::num {
 
-namespace option {
-inline constexpr std::string_view family = "num.family", centre = "num.g02_center", rotary_modulo = "num.rotary_modulo",
-                                  letter_o = "num.lenient_letter_O", range_order = "num.range_order", m30 = "num.m30",
-                                  missing_end = "num.missing_range_end", peck_law = "num.peck_law",
-                                  peck_withdraw = "num.g83_withdraw", structured = "num.structured",
-                                  face_x = "num.face_x", m_programs = "num.m_programs", chased_radial = "num.g31",
-                                  chased_back = "num.g31_back", reentrant = "num.g63", plunged = "num.g66",
-                                  plunged_axis = "num.g66_axis", plunged_steps = "num.g66_steps",
-                                  plunged_back = "num.g66_back", plunged_width = "num.g66_width";
-}  // namespace option
+// The values of an enum stand in the order of its row below.
+enum class Family : std::uint8_t { n7xx, n10xx, flexium };
+enum class ArcCentre : std::uint8_t { absolute_in_g90, incremental };
+enum class ChasedBack : std::uint8_t { oriented, middle, reversed };
+enum class PlungeAxis : std::uint8_t { by_step, x, z };
+enum class PlungeBack : std::uint8_t { rapid, feed };
+enum class PlungeSteps : std::uint8_t { equal, whole };
+enum class FaceX : std::uint8_t { radius, machine };
+enum class LetterO : std::uint8_t { digit, letter };
+enum class MissingRangeEnd : std::uint8_t { error, to_last_lower };
+enum class M30 : std::uint8_t { none, end };
+enum class PeckWithdraw : std::uint8_t { eh, er };
+enum class PeckLaw : std::uint8_t { degressive, constant };
+enum class RangeOrder : std::uint8_t { number, position };
+
+/// What the reader and the writer ask; the values are those of a profile that does not say.
+struct Options {
+  Family family = Family::n10xx;
+  ArcCentre centre = ArcCentre::absolute_in_g90;
+  double linear_unit_um = 1;
+  double rotary_unit = 0.0001;
+  std::string chased_radial;
+  ChasedBack chased_back = ChasedBack::oriented;
+  std::string reentrant;
+  std::string plunged;
+  PlungeAxis plunged_axis = PlungeAxis::by_step;
+  PlungeBack plunged_back = PlungeBack::rapid;
+  PlungeSteps plunged_steps = PlungeSteps::equal;
+  std::string plunged_width;
+  FaceX face_x = FaceX::radius;
+  LetterO letter_o = LetterO::digit;
+  MissingRangeEnd missing_range_end = MissingRangeEnd::error;
+  M30 m30 = M30::none;
+  std::string m_programs;
+  PeckWithdraw peck_withdraw = PeckWithdraw::eh;
+  PeckLaw peck_law = PeckLaw::degressive;
+  RangeOrder range_order = RangeOrder::number;
+  bool structured = true;
+
+  bool operator==(const Options&) const = default;
+};
+
+inline constexpr std::array option_rows{
+    machine::OptionRow<Options>{"num.family", "7xx|10xx|flx", "10xx", &machine::put_option<&Options::family, Options>,
+                                "series of the control"},
+    machine::OptionRow<Options>{"num.g02_center", "absolute_in_G90|incremental", "absolute_in_G90",
+                                &machine::put_option<&Options::centre, Options>, "I J K of an arc under G90"},
+    machine::OptionRow<Options>{"num.linear_unit_um", "number", "1",
+                                &machine::put_option<&Options::linear_unit_um, Options>,
+                                "micrometres in one unit of a linear E parameter"},
+    machine::OptionRow<Options>{"num.rotary_unit", "number", "0.0001",
+                                &machine::put_option<&Options::rotary_unit, Options>,
+                                "degrees in one unit of a rotary E parameter"},
+    machine::OptionRow<Options>{"num.g31", "tool|1+|1-|2+|2-", "",
+                                &machine::put_option<&Options::chased_radial, Options>,
+                                "what takes the point of G31 to its depth: the tool itself, or an axis of the plane; "
+                                "not set: as tool in a run, and no translation"},
+    machine::OptionRow<Options>{
+        "num.g31_back", "oriented|middle|reversed", "oriented", &machine::put_option<&Options::chased_back, Options>,
+        "way out of the thread of G31: spindle stopped and 2 mm aside, from the middle, or along the thread"},
+    machine::OptionRow<Options>{"num.g63", "corner|tool", "", &machine::put_option<&Options::reentrant, Options>,
+                                "where G63 begins: before the corner of the blank, or where the tool stands; not set: "
+                                "as corner in a run, and no translation"},
+    machine::OptionRow<Options>{"num.g66", "from_tool|from_end", "", &machine::put_option<&Options::plunged, Options>,
+                                "the first plunge of G66; not set: as from_tool in a run, and no translation"},
+    machine::OptionRow<Options>{"num.g66_axis", "by_step|x|z", "by_step",
+                                &machine::put_option<&Options::plunged_axis, Options>,
+                                "axis of the plunges of G66; by_step: Z with P, X with R"},
+    machine::OptionRow<Options>{"num.g66_back", "rapid|feed", "rapid",
+                                &machine::put_option<&Options::plunged_back, Options>,
+                                "how a plunge of G66 comes back"},
+    machine::OptionRow<Options>{"num.g66_steps", "equal|whole", "equal",
+                                &machine::put_option<&Options::plunged_steps, Options>, "steps of G66"},
+    machine::OptionRow<Options>{"num.g66_width", "text", "", &machine::put_option<&Options::plunged_width, Options>,
+                                "mm between the two edges of the tool of G66; empty: the width in the tool table"},
+    machine::OptionRow<Options>{"num.face_x", "radius|machine", "radius",
+                                &machine::put_option<&Options::face_x, Options>,
+                                "X under G21: a radius, or as the machine's X is"},
+    machine::OptionRow<Options>{"num.lenient_letter_O", "true|false", "true",
+                                &machine::put_option<&Options::letter_o, Options>,
+                                "the letter O is read as the digit 0 in GO, with a warning"},
+    machine::OptionRow<Options>{"num.missing_range_end", "error|to_last_lower", "error",
+                                &machine::put_option<&Options::missing_range_end, Options>,
+                                "a block range whose last block is missing"},
+    machine::OptionRow<Options>{"num.m30", "none|end", "none", &machine::put_option<&Options::m30, Options>,
+                                "M30 ends the program"},
+    machine::OptionRow<Options>{"num.m_programs", "text", "", &machine::put_option<&Options::m_programs, Options>,
+                                "M functions that call a program, as M:program separated by blanks (\"6:9100\")"},
+    machine::OptionRow<Options>{"num.g83_withdraw", "EH|ER", "EH",
+                                &machine::put_option<&Options::peck_withdraw, Options>,
+                                "height to which a deep hole with EH withdraws between its pecks"},
+    machine::OptionRow<Options>{"num.peck_law", "degressive|constant", "degressive",
+                                &machine::put_option<&Options::peck_law, Options>,
+                                "pecks of a deep hole with first and last size"},
+    machine::OptionRow<Options>{"num.range_order", "number|position", "number",
+                                &machine::put_option<&Options::range_order, Options>,
+                                "how the two ends of a block range are put in order"},
+    machine::OptionRow<Options>{"num.structured", "no|yes", "yes", &machine::put_option<&Options::structured, Options>,
+                                "structured statements are written for the 10xx and later"},
+};
+/// Those that set what every control has.
+inline constexpr std::array shared_option_rows{
+    machine::OptionSpec{"num.rotary_modulo", "text", "BC",
+                        &machine::put_option<&machine::Policies::rotary_signed_axes, machine::Policies>,
+                        "letters of the axes on which the sign of an absolute word is its direction; - for none"},
+    machine::OptionSpec{"num.default_gear", "text", "M41",
+                        &machine::put_option<&machine::Policies::spindle_default_gear, machine::Policies>,
+                        "gear word written when the source has none; empty: the machine has no gear ranges"},
+};
+
+inline Options options_of(const machine::Profile& profile) {
+  return machine::read_options(profile, option_rows);
+}
 
 }  // namespace cnctrans::dialects::num

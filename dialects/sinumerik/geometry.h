@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "dialects/sinumerik/options.h"
 #include "ir/axis.h"
 #include "ir/modal.h"
 #include "machine/profile.h"
@@ -16,7 +17,7 @@ struct GeometryAxes {
   std::array<ir::AxisId, 3> axes{ir::axis::x, ir::axis::y, ir::axis::z};
 
   explicit GeometryAxes(const machine::Profile& p) {
-    const std::string order = p.option("sinumerik.geometry_axes", "XYZ");
+    const std::string order = options_of(p).geometry_axes;
     for (std::size_t i = 0; i < axes.size() && i < order.size(); ++i) axes[i] = ir::fixed_axis(order[i]);
   }
   /// The axis that I (0), J (1) or K (2) belongs to, and the normal of G19, G18 and G17 the same way.

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 #include <utility>
+
+#include "dialects/sinumerik/options.h"
 
 namespace cnctrans::sinumerik {
 
@@ -13,10 +16,6 @@ namespace cnctrans::sinumerik {
 inline constexpr std::string_view kept_milling_modes = "FS,ZFS,GMODE,DMODE,AMODE,LIM";
 /// The step in the plane, which AMODE may count in hundredths of the tool's diameter.
 inline constexpr std::string_view step_parameter = "MIDA";
-
-/// What the size of a round spigot and of its blank is: the tables differ.
-inline constexpr std::string_view spigot_option = "sinumerik.spigot_size";
-inline constexpr std::string_view spigot_radius = "radius", spigot_diameter = "diameter";
 
 /// The parameter that names a contour: a subprogram, or two labels with a colon between them; without it, the cycle
 /// that named one before.
@@ -28,10 +27,11 @@ struct MillingCycle {
   std::string_view name;                                                     ///< "POCKET3"
   std::string_view shape;                                                    ///< row of ir/cycles/milling/milling
   std::array<std::pair<std::string_view, std::string_view>, 20> parameters;  ///< own name, name in the IR
-  std::string_view needs;        ///< own names that must be given, separated by one comma each
-  std::string_view variants;     ///< values of VARI that are carried; empty: it has none
-  std::string_view only_zero;    ///< own names that are carried as 0 only
-  std::string_view spigot = {};  ///< the value of `spigot_option` under which the row holds; empty: any
+  std::string_view needs;      ///< own names that must be given, separated by one comma each
+  std::string_view variants;   ///< values of VARI that are carried; empty: it has none
+  std::string_view only_zero;  ///< own names that are carried as 0 only
+  /// Which size of a round spigot and of its blank the row holds for, where the tables differ.
+  std::optional<SpigotSize> spigot = {};
 };
 
 // clang-format off
@@ -103,12 +103,12 @@ inline constexpr std::array milling_cycles = {
                  {{{"PRAD", "radius"}, {"PA", "u"}, {"PO", "v"}, {"MID", "infeed"}, {"FAL", "wall_stock"},
                    {"FALD", "floor_stock"}, {"FFP1", "mill_feed"}, {"FFD", "plunge_feed"}, {"CDIR", "sense"},
                    {"VARI", "variant"}, {"AP1", "blank_radius"}}},
-                 "PRAD,PA,PO,VARI", "1,2", "", spigot_radius},
+                 "PRAD,PA,PO,VARI", "1,2", "", SpigotSize::radius},
     MillingCycle{"CYCLE77", "boss.circle",
                  {{{"PRAD", "diameter"}, {"PA", "u"}, {"PO", "v"}, {"MID", "infeed"}, {"FAL", "wall_stock"},
                    {"FALD", "floor_stock"}, {"FFP1", "mill_feed"}, {"FFD", "plunge_feed"}, {"CDIR", "sense"},
                    {"VARI", "variant"}, {"AP1", "blank_diameter"}}},
-                 "PRAD,PA,PO,VARI", "1,2", "", spigot_diameter},
+                 "PRAD,PA,PO,VARI", "1,2", "", SpigotSize::diameter},
     MillingCycle{"CYCLE90", "thread.mill",
                  {{{"DIATH", "diameter"}, {"KDIAM", "core"}, {"PIT", "pitch"}, {"FFR", "mill_feed"}, {"CDIR", "sense"},
                    {"TYPTH", "external"}, {"CPA", "u"}, {"CPO", "v"}}},
@@ -116,10 +116,10 @@ inline constexpr std::array milling_cycles = {
 };
 // clang-format on
 
-/// By its own name (capitals); null: none. `spigot`: value of `spigot_option`.
-inline constexpr const MillingCycle* milling_cycle(std::string_view name, std::string_view spigot = spigot_radius) {
+/// By its own name (capitals); null: none.
+inline constexpr const MillingCycle* milling_cycle(std::string_view name, SpigotSize spigot = SpigotSize::radius) {
   for (const auto& c : milling_cycles) {
-    if (c.name == name && (c.spigot.empty() || c.spigot == spigot)) return &c;
+    if (c.name == name && c.spigot.value_or(spigot) == spigot) return &c;
   }
   return nullptr;
 }

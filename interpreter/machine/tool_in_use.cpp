@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "machine/tool_data.h"
-
 namespace cnctrans::interpreter {
 
 ToolInUse::ToolInUse(const machine::Profile& profile)
@@ -11,7 +9,7 @@ ToolInUse::ToolInUse(const machine::Profile& profile)
       of_edge_(profile.policies.tool_bare_offset == machine::ToolBareOffset::edge),
       mill_(profile.kind == machine::Kind::mill),
       usual_plane_(profile.power_on.plane),
-      came_with_t_(machine::changes_on_select(profile)) {}
+      came_with_t_(profile.policies.tool_change == machine::ToolChange::on_select) {}
 
 void ToolInUse::select(std::int32_t number, std::string name, bool with_t) {
   selected_ = number;

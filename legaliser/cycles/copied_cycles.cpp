@@ -11,18 +11,31 @@ namespace cnctrans::ir::passes {
 
 namespace {
 
-struct Row {
-  std::string_view cycle;
-  std::array<std::string_view, 5> options;  ///< of a machine profile, on which its moves depend
+using machine::Policies;
+
+/// An option of a machine profile on which the moves of a cycle depend.
+struct Habit {
+  std::string_view cycle, option;
+  bool (*same)(const Policies& a, const Policies& b);
 };
-constexpr std::array rows = {
-    Row{"part.off", {"cycle.parting_part", "cycle.parting_speed", "cycle.parting_retract", "cycle.parting_after"}},
-    Row{"groove.alternate",
-        {"cycle.groove_position", "cycle.groove_depth", "cycle.groove_dwell", "cycle.groove_edge",
-         "cycle.face_groove_left"}},
-    Row{"groove.shaped", {"cycle.groove_edge", "cycle.face_groove_left"}},
-    Row{"relief.shoulder", {"cycle.relief_edge"}},
-    Row{"relief.thread", {"cycle.relief_edge"}},
+template <auto Field>
+bool same(const Policies& a, const Policies& b) {
+  return a.*Field == b.*Field;
+}
+constexpr std::array habits = {
+    Habit{"part.off", "cycle.parting_part", &same<&Policies::cycle_parting_part>},
+    Habit{"part.off", "cycle.parting_speed", &same<&Policies::cycle_parting_speed>},
+    Habit{"part.off", "cycle.parting_retract", &same<&Policies::cycle_parting_retract>},
+    Habit{"part.off", "cycle.parting_after", &same<&Policies::cycle_parting_after>},
+    Habit{"groove.alternate", "cycle.groove_position", &same<&Policies::cycle_groove_position>},
+    Habit{"groove.alternate", "cycle.groove_depth", &same<&Policies::cycle_groove_depth>},
+    Habit{"groove.alternate", "cycle.groove_dwell", &same<&Policies::cycle_groove_dwell>},
+    Habit{"groove.alternate", "cycle.groove_edge", &same<&Policies::cycle_groove_edge>},
+    Habit{"groove.alternate", "cycle.face_groove_left", &same<&Policies::cycle_face_groove_left>},
+    Habit{"groove.shaped", "cycle.groove_edge", &same<&Policies::cycle_groove_edge>},
+    Habit{"groove.shaped", "cycle.face_groove_left", &same<&Policies::cycle_face_groove_left>},
+    Habit{"relief.shoulder", "cycle.relief_edge", &same<&Policies::cycle_relief_edge>},
+    Habit{"relief.thread", "cycle.relief_edge", &same<&Policies::cycle_relief_edge>},
 };
 
 /// The first option that the profiles set differently; empty: none.
@@ -32,12 +45,10 @@ std::string_view other_option(const Statement& s, const LegaliseContext& context
     const auto* define = std::get_if<CycleDefine>(&a.data);
     const auto* named = define != nullptr && define->cycle ? std::get_if<NamedCycle>(&define->cycle->node) : nullptr;
     if (named == nullptr) continue;
-    const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.cycle == named->name; });
-    if (row == rows.end()) continue;
-    for (const auto option : row->options) {
-      if (!option.empty() && context.source_machine.option(option) != context.target_machine.option(option))
-        return option;
-    }
+    const auto other = std::find_if(habits.begin(), habits.end(), [&](const Habit& h) {
+      return h.cycle == named->name && !h.same(context.source_machine.policies, context.target_machine.policies);
+    });
+    if (other != habits.end()) return other->option;
   }
   return {};
 }

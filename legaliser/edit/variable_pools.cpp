@@ -10,10 +10,8 @@ std::vector<VariablePool> target_pools(const LegaliseContext& context) {
   std::vector<VariablePool> list;
   for (VariablePool pool : context.target.pools) {
     if (pool.prefix.empty()) continue;  // names: nothing to number
-    std::string key = context.target_machine.dialect + ".";
-    for (const char c : pool.prefix) key += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    const auto count = parse_decimal(context.target_machine.option(key + "_count"));
-    if (count && pool.lo == 0) pool.hi = static_cast<std::int64_t>(*count) - 1;
+    const double count = context.target_machine.policies.numbered_variables;
+    if (count > 0 && pool.lo == 0) pool.hi = static_cast<std::int64_t>(count) - 1;
     if (pool.hi >= pool.lo) list.push_back(std::move(pool));
   }
   return list;

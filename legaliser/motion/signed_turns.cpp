@@ -76,7 +76,7 @@ class SignedTurns {
 
 void write_signed_turns(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect) return;
-  const std::string letters = context.target_machine.option(std::string(context.target.dialect) + ".rotary_modulo");
+  const std::string& letters = context.target_machine.policies.rotary_signed_axes;
   if (letters.empty()) return;
   SignedTurns pass(program, context, letters);
   for (auto& r : program.routines) for_each_statement(r.body, [&pass](Statement& s) { pass.statement(s); });

@@ -7,7 +7,6 @@
 #include "legaliser/edit/blocks.h"
 #include "legaliser/edit/editor.h"
 #include "legaliser/passes.h"
-#include "machine/tool_data.h"
 
 namespace cnctrans::ir::passes {
 
@@ -36,8 +35,8 @@ class ToolChanges {
       : program_(program),
         context_(context),
         ready_(ready),
-        at_once_(machine::changes_on_select(context.target_machine)),
-        came_with_t_(machine::changes_on_select(context.source_machine)) {}
+        at_once_(context.target_machine.policies.tool_change == machine::ToolChange::on_select),
+        came_with_t_(context.source_machine.policies.tool_change == machine::ToolChange::on_select) {}
 
   void block(Statement& s) {
     auto& b = std::get<Block>(s.node);
@@ -65,7 +64,7 @@ class ToolChanges {
   void select(Action a, bool change_follows, std::vector<Action>& out) {
     auto& t = std::get<ToolSelect>(a.data);
     const bool did = t.changes;
-    came_with_t_ = did && machine::changes_on_select(context_.source_machine);
+    came_with_t_ = did && context_.source_machine.policies.tool_change == machine::ToolChange::on_select;
     if (did == at_once_) {
       out.push_back(std::move(a));
       return;
@@ -246,9 +245,8 @@ class LengthCompensation {
 }  // namespace
 
 void convert_tools(Program& program, const LegaliseContext& context) {
-  const bool as_written =
-      program.dialect == context.target.dialect &&
-      machine::changes_on_select(context.source_machine) == machine::changes_on_select(context.target_machine);
+  const bool as_written = program.dialect == context.target.dialect &&
+                          context.source_machine.policies.tool_change == context.target_machine.policies.tool_change;
   const ReadyTools ready(program);
   for (auto& r : program.routines) {
     if (as_written) break;

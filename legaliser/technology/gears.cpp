@@ -91,7 +91,7 @@ class Gears {
   /// False: the profile says that the machine has no ranges.
   bool read_option() {
     const auto& machine = context_.target_machine;
-    word_ = machine.option(option_);
+    word_ = machine.policies.spindle_default_gear;
     if (word_.empty()) return false;
     std::int32_t code = -1;
     std::from_chars(word_.data() + 1, word_.data() + word_.size(), code);

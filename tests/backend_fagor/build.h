@@ -7,6 +7,7 @@
 
 #include "backends/fagor/backend.h"
 #include "base/source.h"
+#include "dialects/options.h"
 #include "frontends/fagor/program/frontend.h"
 #include "machine/profile.h"
 #include "tests/support/build_ir.h"
@@ -15,7 +16,7 @@ namespace cnctrans::test {
 
 inline machine::Profile profile_of(const std::string& name) {
   std::string error;
-  auto loaded = machine::load(name, &error);
+  auto loaded = dialects::load_profile(name, &error);
   EXPECT_TRUE(loaded) << error;
   return loaded ? *loaded : machine::Profile{};
 }

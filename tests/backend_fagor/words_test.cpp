@@ -211,7 +211,7 @@ TEST(FagorWords, DirectionOfARotaryMoveIsItsSign) {  // 6.7
   EXPECT_EQ(plain.codes(), "TRN-483");
   const auto on_rollover = [](const ir::Block& b) {
     Build build;
-    build.profile.options["fagor.rotary_rollover"] = "yes";
+    build.profile.policies.rotary_rollover = true;
     build.add(b);
     return build.lines();
   };

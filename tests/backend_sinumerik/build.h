@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "backends/sinumerik/backend.h"
+#include "dialects/options.h"
 #include "dialects/sinumerik/variables.h"
 #include "machine/profile.h"
 
@@ -22,7 +23,7 @@ struct Build {
 
   explicit Build(const std::string& machine = "sinumerik-mill") {
     std::string error;
-    auto loaded = machine::load(machine, &error);
+    auto loaded = dialects::load_profile(machine, &error);
     EXPECT_TRUE(loaded) << error;
     if (loaded) profile = *loaded;
     program.dialect = "elsewhere";

@@ -1,5 +1,6 @@
 // Text in the control's own language, read and written again, is the same text when it is canonical (README of the
 // writer).
+#include "dialects/options.h"
 #include "frontends/sinumerik/program/frontend.h"
 #include "tests/backend_sinumerik/build.h"
 
@@ -16,7 +17,7 @@ Rewritten rewrite(const std::string& text, const std::string& machine = "sinumer
                   const std::string& name = "PART.MPF") {
   Rewritten r;
   std::string error;
-  r.profile = *machine::load(machine, &error);
+  r.profile = *dialects::load_profile(machine, &error);
   frontends::ReadOptions read;
   read.profile = &r.profile;
   const auto source = SourceText::from_string(name, text);

@@ -8,6 +8,7 @@
 #include "dialects/fagor/operators.h"
 #include "dialects/fagor/variables.h"
 #include "dialects/fagor/words.h"
+#include "dialects/options.h"
 #include "frontends/common/word_scanner.h"
 #include "frontends/fagor/syntax/parse.h"
 #include "frontends/fagor/syntax/scan_table.h"
@@ -158,7 +159,7 @@ TEST(FagorStream, SameAsWholeFile) {
       "%PART ,MX,\n; c\nN10 G17 G90\n\nG1 X10 Y-5.5 F100\nG3 X0 Y0 I5 J5 ; arc\n/1 M8\nX5 M30\n; end\n";
   const auto whole = read(text, "fagor-mill", frontends::Reader::scanner);
   std::string error;
-  const auto machine = machine::load("fagor-mill", &error);
+  const auto machine = dialects::load_profile("fagor-mill", &error);
   ASSERT_TRUE(machine) << error;
   frontends::ReadOptions options;
   options.profile = &*machine;

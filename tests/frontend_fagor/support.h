@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dialects/options.h"
 #include "frontends/fagor/program/frontend.h"
 #include "ir/text/text.h"
 
@@ -36,7 +37,7 @@ struct Reading {
 inline Reading read(std::string text, const std::string& profile = "fagor-mill",
                     frontends::Reader reader = frontends::Reader::both, const std::string& name = "000100.PIM") {
   std::string error;
-  const auto machine = machine::load(profile, &error);
+  const auto machine = dialects::load_profile(profile, &error);
   Reading r;
   if (!machine) return r;
   const auto source = SourceText::from_string(name, std::move(text));

@@ -45,7 +45,7 @@ TEST(NumLower, RotarySignIsADirection) {  // 6.12, 6.13
   EXPECT_EQ(line("G0 B-L10"), "block rapid as \"G0\" B by_sign (-L[10])");
   EXPECT_EQ(line("G0 A-9.3"), "block rapid as \"G0\" A -9.3");
   auto p = profile("num-mill");
-  p.options["num.rotary_modulo"] = "-";
+  p.policies.rotary_signed_axes = "-";
   EXPECT_NE(body(read("%1\nG0 B-233\nM2\n", p)).find("B -233"), std::string::npos);
 }
 

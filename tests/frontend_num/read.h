@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/source.h"
+#include "dialects/options.h"
 #include "frontends/num/program/frontend.h"
 #include "ir/text/text.h"
 
@@ -18,7 +19,7 @@ struct Outcome {
 
 inline machine::Profile profile(const std::string& name) {
   std::string error;
-  return machine::load(name, &error).value_or(machine::Profile{});
+  return dialects::load_profile(name, &error).value_or(machine::Profile{});
 }
 
 inline Outcome read(std::string_view text, const machine::Profile& p, Reader reader = Reader::both) {

@@ -20,6 +20,18 @@ TEST(SinumerikExpressions, ComparisonsAreRelative) {  // 4.3: reals are compared
   EXPECT_EQ(std::get<ir::Binary>(whole->node).compare, ir::Compare::exact);
 }
 
+TEST(SinumerikExpressions, GreaterAndLessAreExactWhereTheMachineSaysSo) {  // 4.3, MD10280 bit 0
+  const auto compares = [](const char* block, const std::string& exact) {
+    auto r = read(block, "sinumerik-mill", "TEST.MPF", {{"sinumerik.exact_greater", exact}});
+    EXPECT_EQ(r.errors(), "");
+    return std::get<ir::Binary>(std::get<ir::Assign>(r.program.routines[0].body[0].node).items[0].value->node).compare;
+  };
+  EXPECT_EQ(compares("R1=R2>R3\n", "yes"), ir::Compare::exact);
+  EXPECT_EQ(compares("R1=R2<R3\n", "yes"), ir::Compare::exact);
+  EXPECT_EQ(compares("R1=R2>=R3\n", "yes"), ir::Compare::relative_1e12);
+  EXPECT_EQ(compares("R1=R2>R3\n", "no"), ir::Compare::relative_1e12);
+}
+
 TEST(SinumerikExpressions, RealIntoIntRounds) {  // 4.4
   auto r = read("DEF INT I=2.5\nDEF BOOL B\nI=R1/2\nI=3\nB=R1\nI=7 DIV 2\n");
   EXPECT_EQ(r.errors(), "");

@@ -1,6 +1,7 @@
 // Jumps, structures, repeated parts, calls, cycles, files -> IR. Sections are those of the language reference.
 #include <gtest/gtest.h>
 
+#include "dialects/options.h"
 #include "tests/frontend_sinumerik/show.h"
 
 namespace {
@@ -210,7 +211,7 @@ TEST(SinumerikFiles, AFaultyBlockDoesNotStopTheReading) {
 
 TEST(SinumerikStreams, PlainBlocksFlowAndTheRestAsksForTheProgram) {
   std::string error;
-  const auto profile = machine::load("sinumerik-mill", &error);
+  const auto profile = dialects::load_profile("sinumerik-mill", &error);
   const frontends::ReadOptions options{frontends::Reader::scanner, &*profile};
   const auto stream = frontends::sinumerik::make_frontend()->stream(1, options, "dir/PART.MPF");
   EXPECT_EQ(stream->frame().routines.at(0).name.text, "PART");

@@ -4,10 +4,10 @@
 #include <string>
 #include <string_view>
 
+#include "dialects/options.h"
 #include "frontends/sinumerik/program/frontend.h"
 #include "frontends/sinumerik/syntax/parse.h"
 #include "ir/text/text.h"
-#include "machine/options.h"
 
 namespace cnctrans::sinumerik::testing {
 
@@ -88,8 +88,8 @@ inline Read read(std::string text, const std::string& machine = "sinumerik-mill"
                  const std::vector<std::pair<std::string, std::string>>& options = {}) {
   Read out;
   std::string error;
-  auto profile = machine::load(machine, &error);
-  for (const auto& [name, value] : options) machine::set_option(*profile, name, value, &error);
+  auto profile = dialects::load_profile(machine, &error);
+  for (const auto& [name, value] : options) dialects::options().set(*profile, name, value, &error);
   const SourcePtr source = SourceText::from_string(file, std::move(text));
   const FileId id = out.files.add(source);
   const frontends::ReadOptions read_options{frontends::Reader::both, &*profile};

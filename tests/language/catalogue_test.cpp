@@ -5,7 +5,7 @@
 #include <set>
 
 #include "base/text.h"
-#include "machine/options.h"
+#include "dialects/options.h"
 #include "tests/interpreter/run_ir.h"
 #include "tests/language/markdown.h"
 #include "translator/files/registry.h"
@@ -52,11 +52,11 @@ TEST_P(Catalogue, DoesWhatItSays) {
   const testing::Section& s = entry.section;
   const auto machines = values_of(s, "machine");
   std::string error;
-  auto profile = machine::load(machines.empty() ? entry.dialect + "-mill" : machines[0], &error);
+  auto profile = dialects::load_profile(machines.empty() ? entry.dialect + "-mill" : machines[0], &error);
   ASSERT_TRUE(profile) << error;
   for (const auto& o : values_of(s, "option")) {
     const auto at = o.find('=');
-    ASSERT_TRUE(machine::set_option(*profile, trim(o.substr(0, at)), trim(o.substr(at + 1)), &error)) << error;
+    ASSERT_TRUE(dialects::options().set(*profile, trim(o.substr(0, at)), trim(o.substr(at + 1)), &error)) << error;
   }
   for (const auto& o : values_of(s, "data")) {
     const auto at = o.find('=');

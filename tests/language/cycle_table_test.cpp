@@ -15,10 +15,10 @@
 #include "dialects/fagor/cycles.h"
 #include "dialects/fagor/g_codes.h"
 #include "dialects/num/gcodes.h"
+#include "dialects/options.h"
 #include "dialects/sinumerik/cycles.h"
 #include "ir/check/missing_features.h"
 #include "ir/cycles/pattern.h"
-#include "machine/options.h"
 #include "tests/language/markdown.h"
 #include "translator/files/registry.h"
 #include "translator/pipeline.h"
@@ -156,10 +156,10 @@ class CycleTable : public ::testing::Test {
   /// "native", "native, other passes", "written out", or "refused" with its code.
   std::string becomes(const CycleEntry& c, const testing::Section& s, const translator::Dialect& to) {
     std::string error;
-    auto profile = machine::load(c.dialect + "-" + c.machine, &error);
+    auto profile = dialects::load_profile(c.dialect + "-" + c.machine, &error);
     if (!profile) return error;
     for (const auto& o : values_of(s, "option"))
-      if (!machine::set_option(*profile, trim(o.substr(0, o.find('='))), trim(o.substr(o.find('=') + 1)), &error))
+      if (!dialects::options().set(*profile, trim(o.substr(0, o.find('='))), trim(o.substr(o.find('=') + 1)), &error))
         return error;
     for (const auto& o : values_of(s, "data"))
       profile->data[std::string(trim(o.substr(0, o.find('='))))] = *parse_decimal(trim(o.substr(o.find('=') + 1)));
@@ -193,7 +193,7 @@ class CycleTable : public ::testing::Test {
     const auto& all = result.diagnostics.all();
     const bool other_passes = std::any_of(all.begin(), all.end(), [](const auto& d) { return d.code == "TRN-415"; });
     const bool pattern = has_cycle(read(from, s.fence, *profile), true);
-    const auto target = machine::load(std::string(to.name) + "-" + c.machine, &error);
+    const auto target = dialects::load_profile(std::string(to.name) + "-" + c.machine, &error);
     if (!target) return error;
     for (const auto& o : result.outputs) {
       if (has_cycle(read(to, o.bytes, *target), pattern)) return other_passes ? "native, other passes" : "native";

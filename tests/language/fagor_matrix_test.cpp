@@ -6,6 +6,7 @@
 #include "dialects/fagor/m_codes.h"
 #include "dialects/fagor/variables.h"
 #include "dialects/fagor/words.h"
+#include "dialects/options.h"
 #include "ir/check/missing_features.h"
 #include "machine/data_at_rest.h"
 #include "machine/profile.h"
@@ -121,7 +122,7 @@ std::string m_table() {
 
 std::string variable_table() {
   std::string error;
-  const auto lathe = machine::load("fagor-lathe", &error), mill = machine::load("fagor-mill", &error);
+  const auto lathe = dialects::load_profile("fagor-lathe", &error), mill = dialects::load_profile("fagor-mill", &error);
   const auto given = [&](const facts::VariableInfo& v) {
     const std::string name = std::string(v.name) + (v.axis ? "X" : "");
     const auto in = [](const machine::Profile& p, const std::string& key) {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "machine/options.h"
+#include "dialects/options.h"
 #include "tests/language/markdown.h"
 
 namespace cnctrans {
@@ -27,7 +27,7 @@ void expect_support_matrix(const std::string& page, const std::string& made) {
 
 std::string option_table(std::string_view begin) {
   std::string s = "| Option | Values | Default | Meaning |\n|---|---|---|---|\n";
-  for (const auto& o : machine::option_specs()) {
+  for (const auto& o : dialects::options().rows()) {
     if (!o.name.starts_with(begin)) continue;
     std::string values(o.values);
     for (char& c : values) c = c == '|' ? ' ' : c;

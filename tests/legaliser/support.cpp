@@ -1,6 +1,7 @@
 #include "support.h"
 
 #include "base/text.h"
+#include "dialects/options.h"
 
 namespace cnctrans::test {
 
@@ -143,7 +144,7 @@ Capabilities structured_target() {
 
 machine::Profile profile(const std::string& name) {
   std::string error;
-  auto p = machine::load(name, &error);
+  auto p = dialects::load_profile(name, &error);
   return p ? *p : machine::Profile{};
 }
 

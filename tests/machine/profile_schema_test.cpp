@@ -9,8 +9,8 @@
 #include <set>
 #include <sstream>
 
+#include "dialects/options.h"
 #include "machine/data_at_rest.h"
-#include "machine/options.h"
 #include "machine/profile.h"
 #include "machine/profile_names.h"
 
@@ -112,7 +112,7 @@ TEST(ProfileSchema, TakesEveryBuiltinProfile) {
   for (const auto& name : builtin_names()) {
     EXPECT_EQ(fault(file("profiles/" + name + ".json")), "") << name;
     std::string error;
-    const auto p = load(name, &error);
+    const auto p = dialects::load_profile(name, &error);
     ASSERT_TRUE(p) << error;
     EXPECT_EQ(fault(json::parse(to_json(*p))), "") << name << " as it is written";
   }
@@ -120,8 +120,8 @@ TEST(ProfileSchema, TakesEveryBuiltinProfile) {
 
 TEST(ProfileSchema, DescribesEveryOption) {
   const json options = file("profile.schema.json")["properties"]["options"]["properties"];
-  EXPECT_EQ(options.size(), option_specs().size());
-  for (const auto& spec : option_specs()) {
+  EXPECT_EQ(options.size(), dialects::options().rows().size());
+  for (const auto& spec : dialects::options().rows()) {
     const std::string name(spec.name);
     ASSERT_TRUE(options.contains(name)) << name << " is missing: " << spec.meaning;
     const json& one = options[name];
@@ -193,7 +193,7 @@ TEST(ProfileSchema, AgreesWithTheReader) {
   };
   for (const auto& [text, good] : profiles) {
     std::string error;
-    EXPECT_EQ(from_json(text, &error).has_value(), good) << text << ": " << error;
+    EXPECT_EQ(dialects::profile_of(text, &error).has_value(), good) << text << ": " << error;
     EXPECT_EQ(fault(json::parse(text)).empty(), good) << text << ": " << fault(json::parse(text));
   }
 }

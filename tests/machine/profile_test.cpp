@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "dialects/fagor/options.h"
+#include "dialects/num/options.h"
+#include "dialects/options.h"
+#include "dialects/sinumerik/options.h"
 #include "machine/data_at_rest.h"
-#include "machine/options.h"
 
 namespace cnctrans::machine {
 namespace {
@@ -14,7 +17,7 @@ using ::testing::IsSupersetOf;
 
 std::string fault(std::string_view text) {
   std::string error;
-  EXPECT_FALSE(from_json(text, &error));
+  EXPECT_FALSE(dialects::profile_of(text, &error));
   return error;
 }
 
@@ -26,7 +29,7 @@ TEST(Profile, EveryDialectHasAMillAndALathe) {
 TEST(Profile, BuiltinsLoadAndKeepTheirContract) {
   for (const auto& name : builtin_names()) {
     std::string error;
-    const auto p = load(name, &error);
+    const auto p = dialects::load_profile(name, &error);
     ASSERT_TRUE(p) << name << ": " << error;
     EXPECT_EQ(p->name, name);
     EXPECT_EQ(name, p->dialect + (p->kind == Kind::mill ? "-mill" : "-lathe"));
@@ -44,10 +47,10 @@ TEST(Profile, BuiltinsLoadAndKeepTheirContract) {
 TEST(Profile, JsonFormReadsBack) {
   std::string error;
   for (const auto& name : builtin_names()) {
-    const auto p = load(name, &error);
+    const auto p = dialects::load_profile(name, &error);
     ASSERT_TRUE(p);
     const auto text = to_json(*p);
-    const auto q = from_json(text, &error);
+    const auto q = dialects::profile_of(text, &error);
     ASSERT_TRUE(q) << error;
     EXPECT_EQ(to_json(*q), text);
     EXPECT_EQ(q->power_on, p->power_on);
@@ -57,12 +60,12 @@ TEST(Profile, JsonFormReadsBack) {
 
 TEST(Profile, ExtendsABuiltinAndReplacesWhatIsWritten) {
   std::string error;
-  const auto p = from_json(R"({"extends": "fagor-lathe", "name": "shop 7",
+  const auto p = dialects::profile_of(R"({"extends": "fagor-lathe", "name": "shop 7",
       "axes": [{"name": "X", "diameter": true, "start": 100}, {"name": "Z", "start": 250.5}, {"name": "Y"}],
       "m_codes": [{"code": 107, "meaning": "coolant_flood", "text": "pump 2"}],
       "tools": [{"number": 3, "radius": 0.8}],
       "work_offsets": {"1": {"X": -12.5, "Z": 300}}})",
-                           &error);
+                                      &error);
   ASSERT_TRUE(p) << error;
   EXPECT_EQ(p->dialect, "fagor");
   EXPECT_EQ(p->axes.size(), 3U);
@@ -75,10 +78,10 @@ TEST(Profile, ExtendsABuiltinAndReplacesWhatIsWritten) {
 
 TEST(Profile, DataAtRestByPatternTheLongestFirst) {
   std::string error;
-  const auto p = from_json(R"({"extends": "linuxcnc-mill", "name": "shop",
+  const auto p = dialects::profile_of(R"({"extends": "linuxcnc-mill", "name": "shop",
       "data_at_rest": {"IN[*]": 1, "IN[1?]": 2, "IN[12]": 3, "E7#001": 4},
       "data_of_run": {"WAY?": "travelled", "SPEED2": "rpm:2"}})",
-                           &error);
+                                      &error);
   ASSERT_TRUE(p) << error;
   EXPECT_EQ(data_at_rest(*p, "IN[5]"), 1);
   EXPECT_EQ(data_at_rest(*p, "IN[13]"), 2);
@@ -91,7 +94,7 @@ TEST(Profile, DataAtRestByPatternTheLongestFirst) {
   EXPECT_EQ(data_of_run(*p, "SPEED2")->datum, RunDatum::rpm);
   EXPECT_EQ(data_of_run(*p, "SPEED2")->spindle, 2);
   EXPECT_FALSE(data_of_run(*p, "WAY"));
-  const auto again = from_json(to_json(*p), &error);
+  const auto again = dialects::profile_of(to_json(*p), &error);
   ASSERT_TRUE(again) << error;
   EXPECT_EQ(again->data, p->data);
   auto forgotten = *p;
@@ -102,9 +105,9 @@ TEST(Profile, DataAtRestByPatternTheLongestFirst) {
 
 TEST(Profile, DataAtRestIsInheritedUnlessItIsSwitchedOff) {
   std::string error;
-  const auto kept = from_json(R"({"extends": "fagor-lathe", "name": "a"})", &error);
-  const auto none = from_json(R"({"extends": "fagor-lathe", "name": "a", "data_at_rest": false})", &error);
-  const auto own = from_json(R"({"name": "a", "dialect": "fagor", "axes": [{"name": "X"}]})", &error);
+  const auto kept = dialects::profile_of(R"({"extends": "fagor-lathe", "name": "a"})", &error);
+  const auto none = dialects::profile_of(R"({"extends": "fagor-lathe", "name": "a", "data_at_rest": false})", &error);
+  const auto own = dialects::profile_of(R"({"name": "a", "dialect": "fagor", "axes": [{"name": "X"}]})", &error);
   ASSERT_TRUE(kept && none && own) << error;
   EXPECT_EQ(data_at_rest(*kept, "FRO"), 100);
   EXPECT_FALSE(data_at_rest(*none, "FRO"));
@@ -116,12 +119,12 @@ TEST(Profile, DataAtRestIsInheritedUnlessItIsSwitchedOff) {
 TEST(Profile, ItsOwnMachineHasTheHabitsOfItsControl) {
   std::string error;
   for (const auto& name : builtin_names()) {
-    const auto control = load(name, &error);
+    const auto control = dialects::load_profile(name, &error);
     ASSERT_TRUE(control) << error;
     const std::string kind = control->kind == Kind::mill ? "mill" : "lathe";
-    const auto own = from_json(R"({"name": "a", "dialect": ")" + control->dialect + R"(", "kind": ")" + kind +
-                                   R"(", "axes": [{"name": "X"}, {"name": "Z"}]})",
-                               &error);
+    const auto own = dialects::profile_of(R"({"name": "a", "dialect": ")" + control->dialect + R"(", "kind": ")" +
+                                              kind + R"(", "axes": [{"name": "X"}, {"name": "Z"}]})",
+                                          &error);
     ASSERT_TRUE(own) << name << ": " << error;
     EXPECT_EQ(own->name, "a");
     EXPECT_EQ(own->axes.size(), 2U);
@@ -130,12 +133,12 @@ TEST(Profile, ItsOwnMachineHasTheHabitsOfItsControl) {
     EXPECT_EQ(own->frame_order, control->frame_order) << name;
     EXPECT_EQ(own->m_codes.size(), control->m_codes.size()) << name;
   }
-  const auto said = from_json(R"({"name": "a", "dialect": "fagor", "axes": [{"name": "X"}],
+  const auto said = dialects::profile_of(R"({"name": "a", "dialect": "fagor", "axes": [{"name": "X"}],
       "options": {"tool.bare_offset": "kept"}})",
-                              &error);
+                                         &error);
   ASSERT_TRUE(said) << error;
-  EXPECT_EQ(said->option("tool.bare_offset"), "kept");
-  EXPECT_EQ(said->option("tool.length_axis"), "plane");
+  EXPECT_EQ(said->options.at("tool.bare_offset"), "kept");
+  EXPECT_EQ(said->options.at("tool.length_axis"), "plane");
 }
 
 TEST(Profile, FaultsAreNamed) {
@@ -160,32 +163,56 @@ TEST(Profile, FaultsAreNamed) {
   EXPECT_THAT(fault(R"({"extends": "fagor-mill", "arc_tolerance": "big"})"), HasSubstr("arc_tolerance"));
   EXPECT_THAT(fault(R"([])"), HasSubstr("object"));
   std::string error;
-  EXPECT_FALSE(load("no-such-machine", &error));
+  EXPECT_FALSE(dialects::load_profile("no-such-machine", &error));
   EXPECT_THAT(error, HasSubstr("no-such-machine"));
 }
 
-TEST(Profile, OptionsFallBackToTheTable) {
-  const Profile p;
-  for (const auto& s : option_specs()) {
-    EXPECT_EQ(p.option(s.name), s.fallback);
+TEST(Profile, WhatHoldsWithoutAnOptionIsAValueOfIt) {
+  for (const auto& s : dialects::options().rows()) {
     std::string error;
-    EXPECT_TRUE(check_option(s.name, s.fallback, &error)) << error;
+    EXPECT_TRUE(dialects::options().check(s.name, s.fallback, &error)) << error;
   }
-  EXPECT_EQ(p.option("helix.pitch_mismatch", "nearest"), "nearest");
+}
+
+/// An option that is not set is as if its profile said what the table says.
+template <class Rows>
+void expect_defaults(const Rows& rows) {
+  for (const auto& row : rows) {
+    auto set = machine::read_options(Profile{}, rows);
+    const auto unset = set;
+    row.put(set, row.fallback, value_number(row.fallback, row.values).value_or(0));
+    EXPECT_EQ(set, unset) << row.name;
+  }
+}
+
+TEST(Profile, FieldsOfALanguageBeginWithWhatHoldsWithoutTheOption) {
+  expect_defaults(dialects::fagor::option_rows);
+  expect_defaults(dialects::num::option_rows);
+  expect_defaults(sinumerik::option_rows);
+}
+
+/// Words that every language shares, set under the name that one of them has for them.
+TEST(Profile, AnOptionOfALanguageSetsWhatEveryControlHas) {
+  std::string error;
+  EXPECT_EQ(dialects::load_profile("num-mill", &error)->policies.rotary_signed_axes, "BC");
+  EXPECT_EQ(dialects::load_profile("heidenhain-mill", &error)->policies.rotary_signed_axes, "");
+  const auto set = dialects::profile_of(R"({"extends": "num-mill", "options": {"num.rotary_modulo": "A"}})", &error);
+  EXPECT_EQ(set->policies.rotary_signed_axes, "A");
+  EXPECT_EQ(dialects::load_profile("sinumerik-mill", &error)->policies.numbered_variables, 100);
+  EXPECT_EQ(dialects::load_profile("num-lathe", &error)->policies.spindle_default_gear, "M41");
 }
 
 TEST(Profile, EachValueOfAnOptionIsAValueOfItsField) {
-  for (const auto& spec : option_specs()) {
-    if (spec.put == nullptr) continue;
+  for (const auto& spec : common_options()) {
     Profile p;
     std::string error;
-    EXPECT_TRUE(set_option(p, spec.name, spec.fallback, &error)) << error;
+    EXPECT_TRUE(dialects::options().set(p, spec.name, spec.fallback, &error)) << error;
     EXPECT_EQ(p.policies, Policies{}) << spec.name << ": what holds without the option is not the default of its field";
     std::vector<Policies> seen;
     std::string values = spec.values == "text" ? "A|B" : spec.values == "number" ? "1|2" : std::string(spec.values);
     for (std::string_view rest = values; !rest.empty();) {
       const auto bar = std::min(rest.find('|'), rest.size());
-      EXPECT_TRUE(set_option(p, spec.name, rest.substr(0, bar), &error)) << error;
+      EXPECT_TRUE(dialects::options().set(p, spec.name, rest.substr(0, bar), &error)) << error;
       EXPECT_EQ(std::count(seen.begin(), seen.end(), p.policies), 0) << spec.name << ' ' << rest;
       seen.push_back(p.policies);
       rest.remove_prefix(std::min(bar + 1, rest.size()));
@@ -193,7 +220,7 @@ TEST(Profile, EachValueOfAnOptionIsAValueOfItsField) {
   }
   Profile p;
   std::string error;
-  EXPECT_FALSE(set_option(p, "frame.preset", "other", &error));
+  EXPECT_FALSE(dialects::options().set(p, "frame.preset", "other", &error));
   EXPECT_EQ(p.policies, Policies{});
   EXPECT_TRUE(p.options.empty());
 }

@@ -1,5 +1,6 @@
 // In a world nothing coincides.
 #include "machine/world.h"
+#include "dialects/options.h"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +33,7 @@ TEST(World, EveryPlaceIsAnother) {
 TEST(World, WhatCorrespondsIsTheSameOnEveryMachine) {
   const machine::World world;
   std::string error;
-  const auto mill = machine::load("num-mill", &error), lathe = machine::load("fagor-lathe", &error);
+  const auto mill = dialects::load_profile("num-mill", &error), lathe = dialects::load_profile("fagor-lathe", &error);
   ASSERT_TRUE(mill && lathe) << error;
   const auto a = machine::put_into(world, *mill), b = machine::put_into(world, *lathe);
   EXPECT_EQ(a.axis(ir::axis::x)->start, b.axis(ir::axis::x)->start);
@@ -43,7 +44,8 @@ TEST(World, WhatCorrespondsIsTheSameOnEveryMachine) {
 
 TEST(World, BothBeginWithTheZeroPointThatPowerOnSelects) {
   std::string error;
-  const auto none = machine::load("sinumerik-mill", &error), first = machine::load("num-mill", &error);
+  const auto none = dialects::load_profile("sinumerik-mill", &error),
+             first = dialects::load_profile("num-mill", &error);
   ASSERT_TRUE(none && first) << error;
   EXPECT_EQ(machine::world_for(*none, *first).start_row, 1);
   EXPECT_EQ(machine::world_for(*first, *none).start_row, 1);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "dialects/options.h"
 #include "tests/mutation/documented.h"
 #include "translator/pipeline.h"
 
@@ -37,7 +38,7 @@ Trace trace_of(const std::string& dialect, const std::string& machine, const std
   Trace trace;
   options.run.cycles = &trace.cycles;
   std::string ignored;
-  if (const auto profile = machine::load(machine, &ignored))
+  if (const auto profile = dialects::load_profile(machine, &ignored))
     trace.start = verifier::start_of(*profile, world ? &*world : nullptr);
   const translator::Input input(SourceText::from_string(file, text));
   const auto read = translator::check(input, options);

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/text.h"
+#include "dialects/options.h"
 #include "translator/files/called.h"
 #include "translator/files/definitions.h"
 #include "translator/files/language.h"
@@ -101,7 +102,7 @@ LatheEvidence lathe_evidence(std::string_view text, const Dialect& dialect) {
 
 /// A machine that somebody names. One of another control reads other words: nothing it does could be trusted.
 std::optional<machine::Profile> named_machine(const Dialect& dialect, const std::string& machine, std::string* error) {
-  auto profile = machine::load(machine, error);
+  auto profile = dialects::load_profile(machine, error);
   if (!profile || profile->dialect == dialect.name) return profile;
   const Dialect* other = find_dialect(profile->dialect);
   *error = machine + " is a machine of " + (other != nullptr ? std::string(other->title) : profile->dialect) +
@@ -129,7 +130,7 @@ std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std
       y_axis = lathe && e.diameter_axis && e.y_word;
     }
   }
-  auto profile = machine::load(default_machine(dialect, lathe), error);
+  auto profile = dialects::load_profile(default_machine(dialect, lathe), error);
   if (profile && y_axis && profile->axis(ir::axis::y) == nullptr) {  // a lathe with driven tools
     machine::AxisSpec y;
     y.id = ir::axis::y;
@@ -143,7 +144,7 @@ std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std
 std::optional<machine::Profile> choose_target(const Dialect& dialect, const std::string& machine,
                                               const machine::Profile& source, std::string* error) {
   if (!machine.empty()) return named_machine(dialect, machine, error);
-  auto profile = machine::load(default_machine(dialect, source.kind == machine::Kind::lathe), error);
+  auto profile = dialects::load_profile(default_machine(dialect, source.kind == machine::Kind::lathe), error);
   if (!profile) return profile;
   add_axes(*profile, added_axes(source));
   if (profile->tools.empty()) profile->tools = source.tools;

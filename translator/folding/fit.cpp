@@ -30,10 +30,8 @@ GoesBy turning(const ir::CoordWord& w, const ir::Program& program, const FoldTar
   const machine::Profile& machine = target.machine;
   if (program.dialect == target.dialect || machine.policies.rotary_direction == machine::RotaryDirection::in_word)
     return GoesBy::number;
-  const std::string dialect(target.dialect);
-  const bool by_sign =
-      machine.option(dialect + ".rotary_modulo").find(ir::fixed_axis_name(w.axis)) != std::string::npos ||
-      machine.option(dialect + ".rotary_rollover") == "yes";
+  const bool by_sign = machine.policies.rotary_rollover ||
+                       machine.policies.rotary_signed_axes.find(ir::fixed_axis_name(w.axis)) != std::string::npos;
   if (w.direction == (by_sign ? RotaryDirection::by_sign : RotaryDirection::as_value)) return GoesBy::number;
   return w.direction == RotaryDirection::as_value ? GoesBy::way : GoesBy::more;
 }

@@ -8,7 +8,6 @@
 #include "legaliser/data/given_data.h"
 #include "legaliser/data/missing_offsets.h"
 #include "machine/data_at_rest.h"
-#include "machine/tool_data.h"
 #include "translator/proving/coverage.h"
 #include "translator/proving/explore.h"
 #include "translator/proving/said_tools.h"
@@ -143,7 +142,8 @@ class Prover {
     compared_.stops_in_block = options.target.exact_stop_block;
     compared_.offset_of_start = !options.leaves_offset_of_start;
     compared_.shows_messages = options.target.messages;
-    compared_.makes_ready = !machine::changes_on_select(source.profile) && !machine::changes_on_select(target.profile);
+    compared_.makes_ready = source.profile.policies.tool_change == machine::ToolChange::by_command &&
+                            target.profile.policies.tool_change == machine::ToolChange::by_command;
     const Settings offset = options.target_settings({{std::string(ir::passes::offset_name), "1"}});
     if (!offset.empty())
       only_offset_ = saturate<std::int32_t>(parse_decimal(offset.front().first).value_or(only_offset_));

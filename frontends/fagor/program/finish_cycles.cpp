@@ -64,7 +64,7 @@ void drop_needless_ends(ir::Program& program, LowerState& state) {
 
 void judge_repeats(ir::Program& program, LowerState& state) {
   const auto& programs = state.facts.modal_programs;
-  const bool moves_once = state.profile().option("fagor.mcall_repeat") == "sub_only";
+  const bool moves_once = state.options().mcall_repeat == dialects::fagor::RepeatUnderModal::sub_only;
   if (programs.empty() && !moves_once) return;
   // The text tells what is in force where nothing jumps and every modal call stands in the main part by itself.
   bool any = false, plain = !has_jumps(program);

@@ -7,7 +7,7 @@ namespace cnctrans::fagor {
 
 void set_presets_past_mirrors(ir::Program& program, LowerState& state) {
   const auto& options = state.profile().options;
-  if (!state.facts.preset || state.profile().option("fagor.g92_mirror", "untouched") == "through") return;
+  if (!state.facts.preset || state.options().g92_mirror == dialects::fagor::PresetOfMirror::through) return;
   bool told = options.count("fagor.g92_mirror") != 0;
   ir::passes::presets_past_mirrors(
       program,

@@ -19,10 +19,11 @@ std::vector<ir::VariableSpace> make_spaces() {
 }
 
 LowerState::LowerState(const machine::Profile& profile, Diagnostics& diagnostics)
-    : profile_(&profile), diagnostics_(&diagnostics), lathe_(profile.kind == machine::Kind::lathe) {
+    : profile_(&profile),
+      diagnostics_(&diagnostics),
+      options_(dialects::fagor::options_of(profile)),
+      lathe_(profile.kind == machine::Kind::lathe) {
   units_by_text = profile.power_on.units;
-  tool_changer_ = profile.option("fagor.tool_change", lathe_ ? "turret" : "m6") == "m6";
-  rollover_ = profile.option("fagor.rotary_rollover", "no") == "yes";
   for (const auto& axis : profile.axes) {
     if (axis.id < axes_.size()) axes_[axis.id] = true;
   }

@@ -13,6 +13,7 @@
 
 #include "base/diagnostics.h"
 #include "dialects/fagor/g_codes.h"
+#include "dialects/fagor/options.h"
 #include "frontends/common/syntax.h"
 #include "ir/cycle.h"
 #include "ir/program.h"
@@ -79,15 +80,16 @@ class LowerState {
 
   // machine
   [[nodiscard]] const machine::Profile& profile() const { return *profile_; }
+  [[nodiscard]] const dialects::fagor::Options& options() const { return options_; }
   [[nodiscard]] bool lathe() const { return lathe_; }
   [[nodiscard]] bool has_axis(ir::AxisId id) const { return id < axes_.size() && axes_[id]; }
   [[nodiscard]] const dialects::fagor::GCode* g(int code) const {
     return code >= 0 && code <= dialects::fagor::max_g_code ? g_rows_[static_cast<std::size_t>(code)] : nullptr;
   }
   [[nodiscard]] const machine::MCode* m(int code) const;
-  [[nodiscard]] bool tool_changer() const { return tool_changer_; }
+  [[nodiscard]] bool tool_changer() const { return profile_->policies.tool_change == machine::ToolChange::by_command; }
   [[nodiscard]] bool rollover() const {
-    return rollover_;
+    return profile_->policies.rotary_rollover;
   }  ///< rotary axes: the sign of an absolute value is the sense
 
   // report; places are words of the line at hand
@@ -157,9 +159,8 @@ class LowerState {
   std::map<std::uint32_t, ir::Plane> flow_planes_;
   const machine::Profile* profile_;
   Diagnostics* diagnostics_;
+  dialects::fagor::Options options_;
   bool lathe_ = false;
-  bool tool_changer_ = false;
-  bool rollover_ = false;
   std::array<bool, 9> axes_{};
   std::array<const dialects::fagor::GCode*, dialects::fagor::max_g_code + 1> g_rows_{};
   std::array<const machine::MCode*, 256> m_rows_{};

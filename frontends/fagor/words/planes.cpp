@@ -158,8 +158,7 @@ void BlockLowerer::plane_by_angles(const GWord& g) {
     return;
   }
   const bool along_y = r != nullptr && r->number == 1;
-  const auto& profile = state_.profile();
-  const bool itself = profile.option("fagor.plane_angles", "trace") == "axis";
+  const bool itself = state_.options().plane_angles == dialects::fagor::PlaneAngles::axis;
   const Word* words[] = {i != nullptr ? i : k, j != nullptr ? j : k};
   const auto refused = [&](const Word& w, std::string text, std::string hint) {
     state_.error("FAG-102", w.pos, std::move(text), std::move(hint));
@@ -178,7 +177,7 @@ void BlockLowerer::plane_by_angles(const GWord& g) {
       return refused(*k, "no inclined plane that is known here forms these two angles", "write I and J");
     (i == nullptr ? angle_i : angle_j) = *third;
   }
-  const bool falls = profile.option("fagor.plane_tilt", "rises") == "falls";
+  const bool falls = state_.options().plane_tilt == dialects::fagor::PlaneTilt::falls;
   const ir::Value& first_angle = along_y ? angle_j : angle_i;
   const ir::Value& second_angle = along_y ? angle_i : angle_j;
   std::optional<ir::Value> first = first_angle, second = second_angle;

@@ -100,7 +100,7 @@ void Lowering::plunged_groove(const Word& g) {
   words.emplace_back(p != nullptr ? "step" : "axial_step", value(p != nullptr ? *p : *r));
   if (const Word* ef = use(e('F'))) words.emplace_back("base_dwell", value(*ef));
   const auto& habits = p != nullptr ? settings_.plunged_by_p : settings_.plunged_by_r;
-  if (const auto width = parse_decimal(settings_.edge_width); width && *width > 0)
+  if (const auto width = parse_decimal(settings_.options.plunged_width); width && *width > 0)
     words.emplace_back("width", ir::Value(state_.inch ? *width / 25.4 : *width));
   else if (!habits.confirmed)
     words.emplace_back("assumed_width", ir::Value(1));

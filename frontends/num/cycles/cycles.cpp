@@ -67,7 +67,8 @@ bool Lowering::plane_words(ir::HoleCycle& cycle) {
     state_.cycle.has_impact_plane = true;
   }
   const bool full = cycle.kind == ir::HoleKind::peck_full;
-  cycle.pecks.withdraws_to_retract = full && settings_.withdraws_to_er && state_.cycle.has_impact_plane;
+  cycle.pecks.withdraws_to_retract =
+      full && settings_.options.peck_withdraw == dialects::num::PeckWithdraw::er && state_.cycle.has_impact_plane;
   return true;
 }
 
@@ -121,7 +122,7 @@ bool Lowering::cycle_words(ir::HoleCycle& cycle, int number) {
     report_.refuse("NUM-027", w->pos, "the size of a peck must be above 0", {}, "cycle.hole");
     return false;
   }
-  if (falling && settings_.pecks_constant) {
+  if (falling && settings_.options.peck_law == dialects::num::PeckLaw::constant) {
     report_.refuse("NUM-027", q->pos,
                    "pecks of one size and a last one of another (num.peck_law = constant) are not carried yet", {},
                    "cycle.hole");

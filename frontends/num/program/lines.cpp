@@ -208,7 +208,8 @@ void FileReader::end_routine() {
         "`" + use.name + "` is not declared in this program (VAR ... ENDV); it must come from the caller");
   }
   check_stack();
-  if (settings_.mends_ranges) mend_range_ends(routine_, diagnostics_);
+  if (settings_.options.missing_range_end == dialects::num::MissingRangeEnd::to_last_lower)
+    mend_range_ends(routine_, diagnostics_);
   if (routine_.kind == ir::RoutineKind::main && !ended_ && !only_comments_ && !source_->lines().empty()) {
     Span end{file_, source_->lines().back().number, 1, source_->lines().back().number, 1};
     note_missing_end(end, diagnostics_);

@@ -40,34 +40,25 @@ void read_m_programs(std::string_view text, Settings& s) {
 
 Settings make_settings(const machine::Profile& profile) {
   Settings s;
-  const auto option = [&profile](std::string_view name) { return profile.option(name); };
+  s.options = facts::options_of(profile);
+  const auto& o = s.options;
   s.lathe = profile.kind == machine::Kind::lathe;
-  s.structured = option(facts::option::family) != "7xx";
-  s.centre_absolute = option(facts::option::centre) != "incremental";
-  s.letter_o = option(facts::option::letter_o) != "false";
-  s.range_by_position = option(facts::option::range_order) == "position";
-  s.mends_ranges = option(facts::option::missing_end) == "to_last_lower";
-  s.m30_ends = option(facts::option::m30) == "end";
+  s.structured = o.family != facts::Family::n7xx;
+  s.centre_absolute = o.centre == facts::ArcCentre::absolute_in_g90;
+  s.range_by_position = o.range_order == facts::RangeOrder::position;
   s.stop_ends_spindle = profile.policies.stop_spindle == machine::StopSpindle::stops;
-  s.face_radius = option(facts::option::face_x) == "radius";
-  s.withdraws_to_er = option(facts::option::peck_withdraw) == "ER";
-  s.pecks_constant = option(facts::option::peck_law) == "constant";
-  s.chased = facts::thread_habits(option);
-  s.reentrant = facts::reentrant_habits(option);
-  s.plunged_by_p = facts::plunge_habits(option, true);
-  s.plunged_by_r = facts::plunge_habits(option, false);
-  s.edge_width = option(facts::option::plunged_width);
-  const auto unit = [&profile](std::string_view name, double fallback) {
-    const auto value = parse_decimal(profile.option(name));
-    return value && *value > 0 ? *value : fallback;
-  };
-  s.units_per_mm = 1000 / unit("num.linear_unit_um", 1);
-  s.units_per_degree = std::round(1 / unit("num.rotary_unit", 0.0001));
+  s.face_radius = o.face_x == facts::FaceX::radius;
+  s.chased = facts::thread_habits(o);
+  s.reentrant = facts::reentrant_habits(o);
+  s.plunged_by_p = facts::plunge_habits(o, true);
+  s.plunged_by_r = facts::plunge_habits(o, false);
+  if (o.linear_unit_um > 0) s.units_per_mm = 1000 / o.linear_unit_um;
+  if (o.rotary_unit > 0) s.units_per_degree = std::round(1 / o.rotary_unit);
   s.power_on = profile.power_on;
   for (const auto& axis : profile.axes) {
     if (axis.id < 32) s.axes |= 1U << axis.id;
   }
-  for (const char c : option(facts::option::rotary_modulo)) {
+  for (const char c : profile.policies.rotary_signed_axes) {
     const ir::AxisId id = ir::fixed_axis(static_cast<char>(std::toupper(static_cast<unsigned char>(c))));
     if (id != ir::axis::none && ir::is_rotary_letter(id)) s.modulo |= 1U << id;
   }
@@ -78,8 +69,8 @@ Settings make_settings(const machine::Profile& profile) {
     if (m.code < 0 || m.code > 999) continue;
     s.m[static_cast<std::size_t>(m.code)] = {m.meaning, m.order, static_cast<std::int16_t>(m.argument), true};
   }
-  read_m_programs(option(facts::option::m_programs), s);
-  if (s.m30_ends) s.m[30] = {machine::MMeaning::program_end, ir::Order::after, 0, true};
+  read_m_programs(o.m_programs, s);
+  if (o.m30 == facts::M30::end) s.m[30] = {machine::MMeaning::program_end, ir::Order::after, 0, true};
   return s;
 }
 

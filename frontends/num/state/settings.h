@@ -7,6 +7,7 @@
 #include <string>
 
 #include "dialects/num/assumed_cycles.h"
+#include "dialects/num/options.h"
 #include "ir/block.h"
 #include "machine/profile.h"
 
@@ -21,18 +22,13 @@ struct MEntry {
 
 struct Settings {
   bool lathe = false;
-  bool structured = true;       ///< 10xx and later: IF, WHILE, VAR
-  bool centre_absolute = true;  ///< I J K absolute under G90
-  bool letter_o = true;         ///< GO is G0
-  bool range_by_position = false;
-  bool mends_ranges = false;  ///< a range whose last block is missing ends with the greatest smaller number
-  bool m30_ends = false;
+  dialects::num::Options options;
+  bool structured = true;          ///< 10xx and later: IF, WHILE, VAR
+  bool centre_absolute = true;     ///< I J K absolute under G90
+  bool range_by_position = false;  ///< which of the two blocks of a range comes first
   bool stop_ends_spindle = false;  ///< M00 stops the spindle (3.2.1)
   bool face_radius = true;         ///< X of G21 is a radius
-  bool withdraws_to_er = false;    ///< G83 with EH: between the pecks
-  bool pecks_constant = false;     ///< P..Q as constant pecks and a last one
   dialects::num::CycleHabits chased, reentrant, plunged_by_p, plunged_by_r;
-  std::string edge_width;                                ///< mm between the edges of the tool of G66; empty: not given
   double units_per_mm = 1000, units_per_degree = 10000;  ///< of E parameters
   std::uint32_t axes = 0;                                ///< bit n: the machine has axis n
   std::uint32_t modulo = 0;                              ///< bit n: the sign of an absolute value is a direction

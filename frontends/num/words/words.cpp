@@ -215,7 +215,8 @@ void Lowering::motion_code(const Word& w, ir::MotionKind kind) {
 
 void Lowering::code(const Word& w) {
   if (w.number_text == "O" || w.number_text == "o") {
-    if (!settings_.letter_o) return unknown(w, "the letter O where a number should be");
+    if (settings_.options.letter_o == dialects::num::LetterO::letter)
+      return unknown(w, "the letter O where a number should be");
     report_.warn("NUM-010", w.pos, "`" + std::string(text_of(w)) + "`: the letter O is read as the digit 0",
                  "write G0");
   } else if (has_blank(w.number_text) && joined_digits(w.number_text)) {

@@ -205,7 +205,7 @@ void StatementLowering::fill_table(const Expr& error, WordPos pos, const ir::Lin
     if (e.kind == ExprKind::missing) return;
     if (auto target = exprs_.variable(e, type)) put(std::move(*target), ir::number(value));
   };
-  const bool ok_is_one = c_.machine.profile->option("sinumerik.contour_ok", "0") == "1";
+  const bool ok_is_one = c_.machine.options.contour_ok == ContourOk::one;
   for (const Expr* e : {static_cast<const Expr*>(&c.count), &error}) c_.unknown_names.erase(e->text);
   c_.unknown_names.erase(c.table);
   give(c.count, 0);

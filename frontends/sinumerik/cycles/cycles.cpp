@@ -469,8 +469,7 @@ ir::CyclePtr StatementLowering::cycle(const std::string& name, const std::vector
   ir::HoleCycle hole;
   planes(a, hole, c_, pos);
   if (row.family == CycleFamily::milling) {
-    const auto spigot = c_.machine.profile->option(std::string(spigot_option), spigot_radius);
-    if (!milling_words(*milling_cycle(name, spigot), a, hole, c_, pos)) return nullptr;
+    if (!milling_words(*milling_cycle(name, c_.machine.options.spigot_size), a, hole, c_, pos)) return nullptr;
     check_planes(hole, c_, pos);
     return std::make_shared<const ir::Cycle>(ir::Cycle{std::move(hole)});
   }

@@ -63,12 +63,12 @@ std::optional<std::array<double, 3>> FileContext::table_turn(std::string& why) c
     return std::nullopt;
   }
   if (first == 0 && second == 0) return std::array<double, 3>{};
-  const std::string sense = machine.profile->option("sinumerik.table_turn", "unknown");
-  if (sense == "unknown") {
+  const TableTurn sense = machine.options.table_turn;
+  if (sense == TableTurn::unknown) {
     why = "which way the table turns with the angles of its carrier is not described";
     return std::nullopt;
   }
-  const double sign = sense == "with_angle" ? 1 : -1;
+  const double sign = sense == TableTurn::with_angle ? 1 : -1;
   const auto vector = [&](int n) { return std::array<double, 3>{value(n), value(n + 1), value(n + 2)}; };
   const Matrix a = turn_about(vector(first_vector), sign * first);
   const Matrix b = turn_about(vector(second_vector), sign * second);

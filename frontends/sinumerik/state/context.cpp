@@ -5,7 +5,7 @@
 
 namespace cnctrans::sinumerik {
 
-MachineFacts::MachineFacts(const machine::Profile& p) : profile(&p), geometry(p) {
+MachineFacts::MachineFacts(const machine::Profile& p) : profile(&p), options(options_of(p)), geometry(p) {
   axis_of.fill(ir::axis::none);
   for (const auto& a : p.axes) {
     if (a.name.size() == 1 && a.name[0] >= 'A' && a.name[0] <= 'Z')
@@ -15,10 +15,7 @@ MachineFacts::MachineFacts(const machine::Profile& p) : profile(&p), geometry(p)
   for (const auto& m : p.m_codes) {
     if (m.code >= 0 && m.code < m_limit) m_codes[static_cast<std::size_t>(m.code)] = &m;
   }
-  tool_word_changes = p.option("sinumerik.tool_change", "m6") == "immediate";
-  r_count = saturate<std::int32_t>(parse_decimal(p.option("sinumerik.r_count", "100")).value_or(100));
-  default_edge = parse_decimal(p.option("sinumerik.default_edge", "0")).value_or(0);
-  undefined_names_are_global = p.option("sinumerik.undefined_names", "error") == "global";
+  r_count = saturate<std::int32_t>(p.policies.numbered_variables);
 }
 
 ir::AxisId MachineFacts::axis(char letter) const {

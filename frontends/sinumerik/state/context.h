@@ -15,6 +15,7 @@
 #include "base/diagnostics.h"
 #include "dialects/sinumerik/cycles.h"
 #include "dialects/sinumerik/geometry.h"
+#include "dialects/sinumerik/options.h"
 #include "dialects/sinumerik/variables.h"
 #include "ir/program.h"
 #include "machine/profile.h"
@@ -27,14 +28,12 @@ struct MachineFacts {
 
   static constexpr std::int32_t m_limit = 1000;
   const machine::Profile* profile;
+  Options options;
   std::array<ir::AxisId, 26> axis_of{};                  ///< letter -> axis; none: the machine has no such axis
   std::array<const machine::MCode*, m_limit> m_codes{};  ///< null: no meaning known
-  bool tool_word_changes = false;                        ///< T carries out the change (MD22550 = 0)
-  bool undefined_names_are_global = false;               ///< undeclared names are global user variables
   std::int32_t r_count = 0;                              ///< parameters from R0 on
   std::array<bool, ir::axis::count_max> rotary{};        ///< axes that turn
   GeometryAxes geometry;                                 ///< order of X, Y and Z
-  double default_edge = 0;                               ///< D that a tool change selects; 0: none
 
   [[nodiscard]] ir::AxisId axis(char letter) const;            ///< any case; none when it is no letter or no axis
   [[nodiscard]] ir::AxisId axis(std::string_view name) const;  ///< by name in capitals, also "X1" of the profile

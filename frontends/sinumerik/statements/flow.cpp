@@ -469,7 +469,7 @@ bool StatementLowering::repeat(const Statement& s, ir::LineInfo& info) {
 
 /// GOTOS goes back to the start of the program as long as the PLC asks for it (reference 6).
 bool StatementLowering::program_start(WordPos pos, Parts& parts) {
-  if (c_.machine.profile->option("sinumerik.gotos", "goes_on") == "jumps") {
+  if (c_.machine.options.gotos == Gotos::jumps) {
     c_.warning("SIN-020", pos,
                "GOTOS jumps to the program start only when the PLC asks for it; here it always jumps "
                "(sinumerik.gotos of the machine)");

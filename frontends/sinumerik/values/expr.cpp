@@ -187,7 +187,7 @@ std::optional<ir::VarRef> ExprLowering::variable(const Expr& e, ir::Type& type) 
       c_.keep("SIN-007", e.pos, "the value of " + e.text + " is not carried yet");
       return std::nullopt;
     }
-    if (!c_.machine.undefined_names_are_global) {
+    if (c_.machine.options.undefined_names != UndefinedNames::global) {
       c_.keep("SIN-006", e.pos, e.text + " is not defined in this program; a variable of the program is needed here");
       return std::nullopt;
     }
@@ -430,7 +430,9 @@ ir::ExprPtr ExprLowering::binary(const Expr& e) {
     if (!left || !right) return nullptr;
   }
   const bool reals = left->type == ir::Type::real || right->type == ir::Type::real;
-  const ir::Compare compare = relation && reals ? ir::Compare::relative_1e12 : ir::Compare::exact;
+  const bool order = row->op == ir::BinaryOp::gt || row->op == ir::BinaryOp::lt;
+  const bool within = relation && reals && !(order && c_.machine.options.exact_greater);
+  const ir::Compare compare = within ? ir::Compare::relative_1e12 : ir::Compare::exact;
   const ir::Type type = arithmetic_type(row->op, left->type, right->type);
   return make_expr(ir::Binary{row->op, std::move(left), std::move(right), compare}, type, e.pos);
 }

@@ -10,7 +10,7 @@ using syntax::Expr;
 /// only, like a datum of the machine; a run stops where its value is needed, unless --set or the program gave it one.
 bool ExprLowering::is_undefined(const Expr& e) const {
   return e.text.size() > 1 && e.text[0] != '$' && c_.symbol(e.text) == nullptr &&
-         !c_.machine.undefined_names_are_global && !is_reserved(e.text);
+         c_.machine.options.undefined_names != UndefinedNames::global && !is_reserved(e.text);
 }
 
 ir::SystemRef ExprLowering::undefined(const Expr& e) {

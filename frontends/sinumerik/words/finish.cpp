@@ -218,12 +218,12 @@ void WordLowering::default_offset() {
   }
   if (!changes || c_.offset_chosen) return;
   c_.offset_chosen = true;
-  if (c_.machine.default_edge <= 0) {
+  if (c_.machine.options.default_edge <= 0) {
     return c_.note("SIN-027", place,
                    "no D is written since this tool was selected; most machines select D1 with the tool change",
                    "write the D, or set the option sinumerik.default_edge in the machine profile");
   }
-  push(ir::ToolOffset{ir::Value(c_.machine.default_edge)}, Rank::offset, ir::Order::before, place, false);
+  push(ir::ToolOffset{ir::Value(c_.machine.options.default_edge)}, Rank::offset, ir::Order::before, place, false);
 }
 
 void WordLowering::reject_axis_words(std::string_view why) {

@@ -40,7 +40,7 @@ void WordLowering::finish_inclined() {
   double slope = std::tan(*c_.inclined * degree) / (diameter ? 2 : 1);
   constexpr double fine = 1e12;
   slope = std::round(slope * fine) / fine;
-  if (c_.machine.profile->option("sinumerik.inclined_axis", "plus") == "minus") slope = -slope;
+  if (c_.machine.options.inclined_axis == InclinedAxis::minus) slope = -slope;
   const auto here = [&](ir::AxisId axis) {
     ir::SystemRef ref;
     ref.datum = ir::Datum::programmed_position;

@@ -449,7 +449,7 @@ void WordLowering::s_word(const Word& w, ir::Value value) {
 
 void WordLowering::t_word(const syntax::Block& block, const Word& w) {
   ir::ToolSelect tool;
-  tool.changes = c_.machine.tool_word_changes;
+  tool.changes = c_.machine.profile->policies.tool_change == machine::ToolChange::on_select;
   if (w.is_expression && block.exprs[static_cast<std::size_t>(w.expr)].kind == syntax::ExprKind::string) {
     const WordPos place = block.exprs[static_cast<std::size_t>(w.expr)].pos;
     tool.name = c_.slice(WordPos{place.column + 1, place.length - 2});
