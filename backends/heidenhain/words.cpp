@@ -68,8 +68,11 @@ void Writer::modal_set(const ir::Action& a, const ir::ModalSet& m) {
       return;
     case Setting::comp:
       if (in_force && m.value == code_value(ir::CompSide::off) && !side_) return;  // a positioning block says R0 anyway
-      if (side_ == ir::CompSide::off && m.value != code_value(ir::CompSide::off))  // it ends before it begins anew
-        raw_line_in_branch("L R0", span_of(a.pos));
+      if (side_ == ir::CompSide::off && m.value != code_value(ir::CompSide::off)) {  // it ends before it begins anew
+        next_line();
+        add("L R0", Rank::head, a.pos);
+        next_line();
+      }
       side_ = static_cast<ir::CompSide>(m.value);
       return;
     case Setting::feed_mode:

@@ -449,7 +449,10 @@ bool Lowering::corner(const Word& first, ir::CornerKind kind) {
   }
   const bool follows = block != nullptr && before->kind == ItemKind::plain && before->moves && before->lead < 0 &&
                        before->call == CycleCall::none && block->motion.kind != ir::MotionKind::rapid;
-  if (!follows) {
+  const bool taken = follows && std::any_of(block->actions.begin(), block->actions.end(), [](const ir::Action& a) {
+                       return std::holds_alternative<ir::Corner>(a.data);
+                     });
+  if (!follows || taken) {
     report_.refuse("HEI-007", first.pos, "no path element stands right before the corner", {}, "motion.geometry");
     return false;
   }

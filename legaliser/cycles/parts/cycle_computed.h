@@ -272,9 +272,14 @@ class ComputedHole {
     if (zero_value(c_.shift_w)) aside.motion.coords.clear();
     sideways(aside, false);
     if (!aside.motion.coords.empty()) body().push_back(made(like_, std::move(aside)));
-    rapid(reference_);
+    if (c_.has_feed_out) {
+      feed_out(reference_);
+      if (!equal(retract_, reference_)) rapid(retract_);
+    } else {
+      rapid(reference_);
+    }
     Block out = move(MotionKind::rapid, retract_);
-    if (equal(retract_, reference_)) out.motion.coords.clear();
+    if (c_.has_feed_out || equal(retract_, reference_)) out.motion.coords.clear();
     sideways(out, true);
     if (!out.motion.coords.empty()) body().push_back(made(like_, std::move(out)));
   }
