@@ -3,6 +3,13 @@
 
 namespace cnctrans::ir::passes {
 
+void CyclePass::feed_for_tap(Block& b, const Active& a) {
+  if (!a.needs.feed || by_call_) return;
+  std::erase_if(b.actions, [](const Action& x) { return std::holds_alternative<SetFeed>(x.data); });
+  b.actions.push_back(action(SetFeed{*a.needs.feed, false}));
+  tap_feed_ = true;
+}
+
 /// Equivalences 22.4: CYCLE85 with one feed for both ways is the target's reaming at that F; the F before comes back.
 void CyclePass::feed_as_a_word(Active& a, const Block& b, const Facts& facts) const {
   const auto* hole = std::get_if<HoleCycle>(&a.source->node);

@@ -17,6 +17,27 @@ void CyclePass::leave(Statement& s) {
   });
 }
 
+void CyclePass::note_end(const std::vector<LabelRef>& labels, const Statement* written) {
+  if (!active_) return;
+  if (written != nullptr) behind_range(*written);
+  for (const auto& l : labels) {
+    if (uses_.is_end(l)) ends_[{l.is_number, l.text}] = {active_->on_target, active_->maybe_on_target};
+  }
+}
+
+void CyclePass::behind_range(const Statement& s) {
+  const auto* r = std::get_if<Repeat>(&s.node);
+  if (r == nullptr || by_call_ || r->has_program || r->last.computed) return;
+  const auto end = ends_.find({r->last.is_number, r->last.text});
+  if (end == ends_.end()) return;
+  const auto count = constant_value(r->count);
+  const bool surely = !r->count || (count && *count >= 1);
+  const auto [on, maybe] = end->second;
+  const bool either = on || maybe || (!surely && (active_->on_target || active_->maybe_on_target));
+  active_->on_target = on && (surely || active_->on_target);
+  active_->maybe_on_target = either && !active_->on_target;
+}
+
 void CyclePass::join(const Statement& s) {
   if (!active_) return;
   const bool on = active_->on_target, late = on && active_->deferred;

@@ -162,6 +162,8 @@ class CyclePass {
   }
 
   void leave(Statement& s);
+  void note_end(const std::vector<LabelRef>& labels, const Statement* written);  ///< of a repeated range, perhaps
+  void behind_range(const Statement& s);   ///< a repeat leaves the cycle as the end of its range does
   void end_elsewhere(const Statement& s);  ///< a subprogram has ended the cycle, on every way
   void one(Statement&& s, Body& out) {
     end_elsewhere(s);
@@ -176,7 +178,9 @@ class CyclePass {
     const auto* source = std::get_if<Block>(&seen.node);
     branch_before_first_point(s);
     const bool moved = moves_coordinates(s);
+    const auto labels = labels_on(s.line);
     lower(std::move(s), out);
+    note_end(labels, out.size() > first ? &out.back() : nullptr);
     late_.clear();  // of a refused block
     then_.clear();
     for (std::size_t i = first; i < out.size() && source != nullptr && !source->empty(); ++i) settle(out[i]);
@@ -267,12 +271,7 @@ class CyclePass {
   /// One feed into the hole and out of it: an F in force while the target's cycle runs (cycle_feeds.cpp).
   void feed_as_a_word(Active& a, const Block& b, const Facts& facts) const;
   /// The F that gives a tap its pitch stands beside its definition; the one before it comes back behind the cycle.
-  void feed_for_tap(Block& b, const Active& a) {
-    if (!a.needs.feed || by_call_) return;
-    std::erase_if(b.actions, [](const Action& x) { return std::holds_alternative<SetFeed>(x.data); });
-    b.actions.push_back(action(SetFeed{*a.needs.feed, false}));
-    tap_feed_ = true;
-  }
+  void feed_for_tap(Block& b, const Active& a);
   static std::optional<Action> feed_after_tap(const Active& a, const Facts& facts) {
     if (!a.needs.feed || !facts.feed) return std::nullopt;
     return action(SetFeed{Value{*facts.feed}, false});
@@ -468,8 +467,9 @@ class CyclePass {
   std::vector<ProfileUse> uses_of_profiles_;
   std::map<std::pair<bool, std::string>, std::uint32_t> first_use_;  ///< label: the first statement that leads to it
   std::map<std::pair<bool, std::string>, Left> left_;  ///< label: what jumps made while a cycle is active take there
-  std::map<std::pair<bool, std::string>, std::uint32_t> last_use_;  ///< label: the last statement that leads to it
-  std::vector<std::pair<std::uint32_t, VarRef>> writes_;            ///< by the statements of this routine
+  std::map<std::pair<bool, std::string>, std::pair<bool, bool>> ends_;  ///< label: the target's is or may be in force
+  std::map<std::pair<bool, std::string>, std::uint32_t> last_use_;      ///< label: the last statement that leads to it
+  std::vector<std::pair<std::uint32_t, VarRef>> writes_;                ///< by the statements of this routine
   std::uint32_t last_id_ = 0;
   ToolHeight height_;
   SpindleSense sense_;

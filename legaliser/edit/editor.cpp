@@ -163,18 +163,22 @@ void Editor::put(Body& out, Body&& pre, Statement&& s) {
 }
 
 void Editor::put_group(Body& out, Body&& pieces, std::size_t main) {
-  LineInfo& head = pieces[main].line;
   bool end = false, target_too = false;
-  const auto labels = labels_on(head);
+  const auto labels = labels_on(pieces[main].line);
   for (const auto& l : labels) {
     end = end || uses_.is_end(l);
     target_too = target_too || uses_.is_target(l);
   }
   if (main != 0) {
-    move_head(head, pieces.front().line);
+    move_head(pieces[main].line, pieces.front().line);
     pieces[main].line.joined = false;
   }
   if (end && pieces.size() > 1) {
+    if (!labels_on(pieces.back().line).empty()) {  // jumped to by the pieces: the end of the range stands behind it
+      Statement mark = made(pieces.back().line, Label{});
+      mark.line.skip_mask = 0;
+      pieces.push_back(std::move(mark));
+    }
     LineInfo& first = pieces.front().line;
     LineInfo& last = pieces.back().line;
     if (!target_too) {  // the mark of a range's end stands on the last piece
