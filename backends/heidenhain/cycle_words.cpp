@@ -68,32 +68,22 @@ void Writer::cycle_define(const ir::Action& a, const ir::CycleDefine& c) {
   if (plan_.is_called(current())) return;
   define_cycle(current(), c);
   const auto* hole = std::get_if<ir::HoleCycle>(&c.cycle->node);
-  const auto before = hole != nullptr && hole->has_speed ? own_speed(*hole) : std::nullopt;
+  if (hole != nullptr && hole->has_speed) own_speed(*hole);
   if (refused()) return;
   if (side_) {  // it begins or ends before the cycle runs
     add(take_waiting(), Rank::head);
     next_line();
   }
   add("CYCL CALL", Rank::head);
-  if (before) {
-    next_line();
-    add("TOOL CALL S" + *before, Rank::head);
-  }
   spindle_again(c);
 }
 
-/// Says the speed of a tap where another one is in force; that one, to be said again.
-std::optional<std::string> Writer::own_speed(const ir::HoleCycle& c) {
+/// Says the speed of a tap where another one may be in force; it stays behind the tap.
+void Writer::own_speed(const ir::HoleCycle& c) {
   const ir::Facts* f = facts();
-  if (f != nullptr && f->spindle && *f->spindle == c.speed.number) return std::nullopt;
-  if (f == nullptr || !f->spindle) {
-    refuse(no_cycle, {}, "the tap has a speed of its own, and the one that comes back behind it is not known here",
-           "write S before the tap on every path");
-    return std::nullopt;
-  }
+  if (f != nullptr && f->spindle == c.speed.number) return;
   add("TOOL CALL S" + amount(c.speed, {}), Rank::head);
   next_line();
-  return amount(ir::Value(*f->spindle), {});
 }
 
 /// Nothing is modal here: the end of a cycle needs no word.

@@ -82,7 +82,7 @@ class Writer final : public ProgramWriter {
   std::string q_line(std::int16_t cycle, std::int16_t number, const ir::Value& value, WordPos pos);
   std::string definition(const ir::Statement& call, const ir::CycleDefine& d);
   void define_cycle(const ir::Statement& call, const ir::CycleDefine& d);
-  std::optional<std::string> own_speed(const ir::HoleCycle& c);
+  void own_speed(const ir::HoleCycle& c);
   void spindle_again(const ir::CycleDefine& d);
 
   // motion

@@ -121,6 +121,13 @@ class TapSpeeds {
     }
     return false;
   }
+  static bool says_speed(const Around& a) {
+    return action_in<SetSpindle>(a.before) != nullptr || (a.after && action_in<SetSpindle>(*a.after) != nullptr);
+  }
+  /// A speed in a block of its own runs the modal cycle or the modal subprogram that is in force, perhaps.
+  static bool may_run_again(const Facts& facts) {
+    return !facts.cycle_active_known || facts.cycle_active || facts.modal_call_runs();
+  }
   void one(Body& body, std::size_t i, std::optional<Block>& behind, Body& out) {
     Statement& s = body[i];
     auto* m = std::get_if<ModalCall>(&s.node);
@@ -136,6 +143,7 @@ class TapSpeeds {
       if (d == nullptr || !d->here || (d->modal && !row_of_points(body, i))) continue;
       over_points = d->modal;
       around = split(d->cycle, facts_.before(s), sense_.surely());
+      if (around && !d->modal && says_speed(*around) && may_run_again(facts_.before(s))) around.reset();
       if (around) d->cycle = around->cycle;
     }
     const LineInfo like = s.line;

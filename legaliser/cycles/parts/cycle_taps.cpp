@@ -178,6 +178,16 @@ void tell_standing_tap(const Cycle& cycle, const LineInfo& where, const Legalise
                               "write M3 or M4 before the cycle");
 }
 
+void judge_feedless_tap(const Cycle& cycle, const FeedBefore& feed, const LineInfo& where, const Program& program,
+                        const LegaliseContext& context) {
+  const auto* hole = std::get_if<HoleCycle>(&cycle.node);
+  if (hole == nullptr || !is_tap(*hole) || !hole->pitch.is(0) || hole->has_feed || !feed.none) return;
+  if (context.source_machine.power_on_feed > 0 || program.dialect == context.target.dialect) return;
+  context.diagnostics.error("TRN-330", where.span,
+                            "the pitch of this tap is its feed over its speed, and no F has been given before it",
+                            "write F before the cycle, or the pitch");
+}
+
 namespace {
 
 /// A hole that does not start a spindle that stands.
