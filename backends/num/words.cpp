@@ -85,11 +85,11 @@ void Writer::modal_set(const ir::Action& a, const ir::ModalSet& m) {
     case ir::Setting::feed_point:
       if (m.value == code_value(ir::OnOff::on) || m.setting == ir::Setting::feed_point) return;
       break;
-    case ir::Setting::spindle_mode: {  // what a G94 of the source ends beside; in a file of its own facts may be
-                                       // assumed
-      const bool mill = profile().kind == machine::Kind::mill;
-      const bool rpm = m.value == code_value(ir::SpindleMode::rpm) && setting(m.setting) == m.value;
-      if (mill && rpm && !same_dialect() && a.text.empty()) return;
+    case ir::Setting::spindle_mode: {  // what a G94 of the source ends beside
+      const ir::Facts* f = facts();
+      const auto before = f != nullptr ? f->settings[static_cast<std::size_t>(m.setting)] : std::nullopt;
+      const bool rpm = m.value == code_value(ir::SpindleMode::rpm) && before == m.value;
+      if (profile().kind == machine::Kind::mill && rpm && !same_dialect() && a.text.empty()) return;
       break;
     }
     default: break;

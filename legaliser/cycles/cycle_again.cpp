@@ -35,6 +35,7 @@ void CyclePass::lower(Statement&& s, Body& out) {
     if (!m->off && m->cycle) return modal_call(std::move(s), out);
   }
   if (std::holds_alternative<Block>(s.node)) return block(std::move(s), out);
+  if (std::holds_alternative<Assign>(s.node) && refuse_other_levels(s, out)) return;
   note_foreign(s, facts_.before(s));
   if (const auto* call = std::get_if<CallRoutine>(&s.node); call != nullptr && active_) callee_sets_plane(*call, s);
   if (auto* call = std::get_if<CallRoutine>(&s.node);

@@ -79,28 +79,39 @@ bool CyclePass::follow_height(const Block& b, const Facts& facts) {
 }
 
 bool CyclePass::refuse_other_levels(Statement& s, Body& out) const {
-  const auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
-  if (!facts.reachable || (facts.cycle_active_known && !facts.cycle_active) || action_in<CycleDefine>(b) != nullptr ||
-      action_in<CycleCancel>(b) != nullptr)
-    return false;
-  const auto plane = setting_in<Plane>(b, facts, Setting::plane);
-  const auto along = [&plane](const FrameWord& w) { return !plane || w.axis == plane_axes(*plane).w; };
-  const bool other = std::any_of(b.actions.begin(), b.actions.end(), [&](const Action& a) {
+  const auto* assign = std::get_if<Assign>(&s.node);
+  const auto* b = std::get_if<Block>(&s.node);
+  if (!facts.reachable || (facts.cycle_active_known && !facts.cycle_active)) return false;
+  if (b != nullptr && (action_in<CycleDefine>(*b) != nullptr || action_in<CycleCancel>(*b) != nullptr)) return false;
+  const auto plane =
+      b != nullptr ? setting_in<Plane>(*b, facts, Setting::plane) : setting<Plane>(facts, Setting::plane);
+  const auto along = [&plane](AxisId axis) { return !plane || axis == plane_axes(*plane).w; };
+  const auto written = [&](const Assign::Item& i) {
+    const auto index = i.system.args.empty() ? std::nullopt : constant_value(i.system.args.front());
+    const bool elsewhere = index && facts.work_offset && *index != *facts.work_offset;
+    return i.to_system && i.system.datum == Datum::work_offset && !elsewhere && along(i.system.axis);
+  };
+  const auto changed = [&](const Action& a) {
     const auto* f = std::get_if<FrameOp>(&a.data);
     const FrameChange* c = f != nullptr ? f->change.get() : nullptr;
     return c != nullptr && c->combine != FrameCombine::preset && c->kind != FrameKind::rotate &&
-           (c->uniform_scale || std::any_of(c->words.begin(), c->words.end(), along));
-  });
-  const auto* offset = action_in<WorkOffset>(b);
+           (c->uniform_scale ||
+            std::any_of(c->words.begin(), c->words.end(), [&](const FrameWord& w) { return along(w.axis); }));
+  };
+  const bool other = (assign != nullptr && std::any_of(assign->items.begin(), assign->items.end(), written)) ||
+                     (b != nullptr && std::any_of(b->actions.begin(), b->actions.end(), changed));
+  const auto* offset = b != nullptr ? action_in<WorkOffset>(*b) : nullptr;
   const bool on = active_ && (active_->on_target || active_->maybe_on_target);
   const bool ends = on && offset != nullptr && offset->off;
   if (!other && !ends) return false;
   refuse(
       s, program_, context_, "TRN-331",
-      ends ? std::string(offset_ends)
-           : "the scale, the shift or the mirror along the tool changes while a cycle is active: whether its levels go "
-             "along is not the same on every control",
+      ends
+          ? std::string(offset_ends)
+          : std::string(assign != nullptr ? "the zero point" : "the scale, the shift or the mirror") +
+                " along the tool changes while a cycle is active: whether its levels go along is not the same on every "
+                "control",
       "cancel the cycle before this block and define it again behind it");
   out.push_back(std::move(s));
   return true;

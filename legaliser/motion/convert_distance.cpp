@@ -325,6 +325,10 @@ class DistancePass {
     return true;
   }
 
+  [[nodiscard]] bool ends_turn(const FrameChange& c) const {
+    return c.combine == FrameCombine::clear || (replaces_chain(c) && shifted_.turned);
+  }
+
   /// An increment right after a frame change: controls differ in what it is added to. True: its words are absolute now.
   bool watch_frames(const Statement& s, Block& b) {
     if (!keeps_differ_) return false;
@@ -332,7 +336,7 @@ class DistancePass {
     leave_straight(s);
     if (const auto* waiting = unmoved_ ? unmoved_->before(s) : nullptr) {
       dirty_ = static_cast<std::uint32_t>(*waiting);
-      if (turns_) turned_ |= static_cast<std::uint32_t>(*waiting >> UnmovedAxes::first_turned_bit);
+      if (turns_) turned_ |= UnmovedAxes::turned_axes(*waiting);
     }
     if (b.has_motion && is_polar(b.motion)) shifted_.at.fill(std::nullopt);
     const Facts& facts = facts_.before(s);
@@ -352,8 +356,8 @@ class DistancePass {
         shifted_.moved[x] = 0;
       }
       dirty_ = ~0U;
-      if (f != nullptr && f->change && (turns(*f->change) || (turns_ && f->change->combine == FrameCombine::clear)))
-        turned_ = ~0U;
+      const auto* change = f != nullptr ? f->change.get() : nullptr;
+      if (change != nullptr && (turns(*change) || (turns_ && ends_turn(*change)))) turned_ = ~0U;
       if (offset || !f->change || s.line.skip_mask != 0)
         shifted_.clear_all();
       else

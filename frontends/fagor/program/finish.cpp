@@ -218,13 +218,7 @@ void judge_depths(ir::Program& program, LowerState& state) {
   if (!any) return;
   ir::number_statements(program);
   const ir::FactTable table = ir::analyse(program, state.profile().power_on);
-  std::uint32_t programmed = 0;  // axes the text has moved: where the tool starts is the machine's affair
   const auto check = [&](const ir::Statement& s) {
-    const auto* block = std::get_if<ir::Block>(&s.node);
-    const std::uint32_t before = programmed;
-    if (block != nullptr && block->has_motion) {
-      for (const auto& c : block->motion.coords) programmed |= 1U << c.axis;
-    }
     const ir::HoleCycle* hole = cycle_in(s);
     if (hole == nullptr) return;
     ir::Facts at = table.before(s.id);
@@ -238,7 +232,7 @@ void judge_depths(ir::Program& program, LowerState& state) {
     if (!at.reachable || !distance || !plane) return;
     const bool absolute = *distance == static_cast<std::uint8_t>(ir::Distance::absolute);
     const ir::AxisId normal = ir::plane_axes(static_cast<ir::Plane>(*plane)).w;
-    const auto tool = (before >> normal & 1U) != 0 ? at.position[normal] : std::nullopt;
+    const auto tool = at.position[normal];
     const auto height = [&](const ir::Level& l, std::optional<double> from) -> std::optional<double> {
       if (!l.value.literal()) return std::nullopt;
       const bool own = l.base == ir::LevelBase::absolute || (l.base == ir::LevelBase::distance_mode && absolute);
