@@ -41,15 +41,7 @@ class Structure {
       routine.file = program.routines[0].file;
       routine.header.span = label.statement.line.span;
       fill(routine, static_cast<int>(r), sub.first, sub.last);
-      if (sub.falls_into != 0) {
-        ir::Statement s;
-        s.line.span = routine.header.span;
-        ir::CallRoutine call;
-        call.routine = routine_name(
-            flat_.items[static_cast<std::size_t>(subs_.at(static_cast<std::size_t>(sub.falls_into)).first)]);
-        s.node = std::move(call);
-        routine.body.push_back(std::move(s));
-      }
+      if (sub.falls_into != 0) fall(routine, sub);
       program.routines.push_back(std::move(routine));
     }
   }
@@ -70,6 +62,30 @@ class Structure {
     int falls_into = 0;        ///< root of the subprogram whose text goes on behind it
     std::vector<int> returns;  ///< LBL 0 before its last one
   };
+  static ir::Opaque left_out(const Item& item) {
+    ir::Opaque o;
+    o.text = "LBL " + item.label;
+    o.feature = "language.statement";
+    return o;
+  }
+  /// The text goes on in the next subprogram.
+  void fall(ir::Routine& routine, const Sub& sub) {
+    const auto next = subs_.find(static_cast<std::size_t>(sub.falls_into));
+    const int start = flow_.roots()[static_cast<std::size_t>(sub.falls_into)].start;
+    const Item& label = flat_.items[static_cast<std::size_t>(start)];
+    ir::Statement s;
+    s.line.span = routine.header.span;
+    if (next == subs_.end()) {
+      at(label).refuse("HEI-025", {}, "the subprogram " + label.label + " is not carried");
+      s.line.span = label.statement.line.span;
+      s.node = left_out(label);
+    } else {
+      ir::CallRoutine call;
+      call.routine = routine_name(label);
+      s.node = std::move(call);
+    }
+    routine.body.push_back(std::move(s));
+  }
   Report& at(const Item& item) {
     lowering_.report().start(item.statement.line.span);
     return lowering_.report();
@@ -138,10 +154,7 @@ class Structure {
       const int to = flow_.label(item);
       const auto refuse = [&](std::string_view code, std::string text) {
         at(item).refuse(code, {}, std::move(text));
-        ir::Opaque o;
-        o.text = "LBL " + item.label;
-        o.feature = "language.statement";
-        statements_[i].front().node = std::move(o);
+        statements_[i].front().node = left_out(item);
       };
       if (to < 0) {
         refuse("HEI-010", "there is no label " + item.label + " in this file");
