@@ -68,7 +68,9 @@ void ToolPlan::routine(std::size_t index, const LabelUse& use) {
       waiting = nullptr;
       find_speed(r.body, i, k, index, use);
     }
-    if (b->has_motion && b->motion.moves()) waiting = nullptr;
+    const bool cycle = std::any_of(b->actions.begin(), b->actions.end(),
+                                   [](const ir::Action& a) { return std::holds_alternative<ir::CycleDefine>(a.data); });
+    if (cycle || (b->has_motion && b->motion.moves())) waiting = nullptr;
   }
   offsets_off(r.body);
 }

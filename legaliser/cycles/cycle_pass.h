@@ -80,6 +80,7 @@ class CyclePass {
     std::optional<double> defined_at;      ///< height of the tool at the definition, mm
     std::optional<double> height;          ///< of the tool over the holes, mm
     bool left_height = false;              ///< the tool has left the height of its definition
+    bool repeats = false;                  ///< a loop made for a pattern comes here again, from another height
     std::optional<Units> units;            ///< of its words
     std::vector<VarRef> stale;             ///< read by its words and changed since its definition
     std::vector<std::uint32_t> said_by{};  ///< the statements that gave it its words

@@ -127,7 +127,9 @@ void CyclePass::pattern_as_loop(Statement&& s, PatternLoop&& loop, Body&& pieces
   if (loop.first) run(std::move(*loop.first), out);
   While node;
   node.condition = loop.again;
+  if (active_) active_->repeats = true;
   run(std::move(loop.next), node.body);
+  if (active_) active_->repeats = false;
   const ExprPtr counter = variable(loop.counter);
   node.body.push_back(make_assign(like, loop.counter, binary(BinaryOp::add, counter, number(1))));
   Body written;

@@ -416,7 +416,10 @@ static std::uint32_t last_inside(Body& body) {
 bool CyclePass::begins_with_point(const Body& body) const {
   for (const Statement& s : body) {
     const auto* b = std::get_if<Block>(&s.node);
-    if (b != nullptr && !b->empty()) return triggers(*b, facts_.before(s));
+    if (b != nullptr && !b->empty()) {  // one along the tool alone is written out, and defines nothing
+      const auto w = tool_axis(active_->source, *b, facts_.before(s));
+      return triggers(*b, facts_.before(s)) && (!w || has_plane_word(*b, *w));
+    }
     if (b == nullptr && !std::holds_alternative<Assign>(s.node) && !std::holds_alternative<Message>(s.node))
       return false;
   }

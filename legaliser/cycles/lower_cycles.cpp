@@ -179,6 +179,7 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   auto sense = sense_.surely() ? sense_.surely() : sense_.or_off();
   if (callees_.spindle && callees_.spindle->turns_on_some_way(s)) sense.reset();
   if (callees_.spindle && callees_.spindle->stands(s)) sense = SpindleState::off;
+  constexpr double above = 1e6;
   std::string error, differs;
   std::optional<Explosion> moves;
   std::optional<double> height = active_->height;
@@ -203,8 +204,8 @@ void CyclePass::write_out(Statement&& s, Body&& pieces, Body& out) {
   else if ((moves = tap_strokes(*hole, s, b, &differs)) || (moves = axial_tap(*hole, s, b, sense)))
     error.clear();
   else if (height || stands_by_itself(*hole))  // from somewhere above, where the height does not matter
-    moves = explode(*hole, s.line, b, facts, feeds_.at(s, b, facts), height.value_or(1e6),
-                    active_->defined_at.value_or(height.value_or(1e6)), sense, &error);
+    moves = explode(*hole, s.line, b, facts, feeds_.at(s, b, facts), active_->repeats ? above : height.value_or(above),
+                    active_->defined_at.value_or(height.value_or(above)), sense, &error);
   if (!moves && milling && !lost && put_similar_pocket(*hole, s, pieces, height, true, out)) return;
   if (!moves && error.empty()) {
     const auto initial = active_->defined_at ? active_->defined_at : height;
