@@ -235,8 +235,9 @@ class Comparison {
     const std::uint32_t axes = common(a, b);
     for (std::size_t k = 0; k < a.value.size(); ++k) {
       if ((axes >> k & 1U) == 0) continue;
-      if (std::fabs(a.value[k] - b.value[k]) > (rotary(k) ? options_.tolerances.angle : options_.tolerances.length))
-        return false;
+      constexpr double rounding = 1e-12;  // of a computed number, however large
+      const double tolerance = rotary(k) ? options_.tolerances.angle : options_.tolerances.length;
+      if (std::fabs(a.value[k] - b.value[k]) > std::fmax(tolerance, rounding * std::fabs(a.value[k]))) return false;
     }
     return true;
   }
