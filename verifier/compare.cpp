@@ -6,10 +6,12 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
 #include "base/text.h"
+#include "ir/geometry/geometry.h"
 #include "verifier/commands.h"
 #include "verifier/cycle_pairs.h"
 #include "verifier/dwells.h"
@@ -415,7 +417,8 @@ class Comparison {
                          b.cw ? "clockwise" : "counter-clockwise");
     if (a.turns != b.turns)
       return fmt::format("{} added full turns in the source, {} in the translation", a.turns, b.turns);
-    const double apart = std::hypot(a.center_u - b.center_u, a.center_v - b.center_v);
+    double apart = std::hypot(a.center_u - b.center_u, a.center_v - b.center_v);
+    if (apart > options_.tolerances.center && a.turns == 0) apart = std::min(apart, paths_apart(a, b));
     if (apart > options_.tolerances.center) {
       return fmt::format("arc centre {} {} in the source, {} {} in the translation", shortest(a.center_u),
                          shortest(a.center_v), shortest(b.center_u), shortest(b.center_v));
@@ -430,6 +433,19 @@ class Comparison {
       return fmt::format("{} in the source, {} in the translation", full_a ? "a full circle" : "an arc",
                          full_b ? "a full circle" : "an arc");
     return {};
+  }
+
+  /// How far the paths of two arcs of one plane and sense lie apart; beyond all measure where a start is not known.
+  [[nodiscard]] double paths_apart(const Event& a, const Event& b) const {
+    const auto [u, v, w] = ir::plane_axes(a.plane);
+    (void)w;
+    const std::uint32_t both = 1U << u | 1U << v;
+    if ((from_a_.known & from_b_.known & both) != both) return std::numeric_limits<double>::infinity();
+    const auto arc = [u = u, v = v](const Event& e, const Position& from) {
+      return ir::geometry::PlaneArc{
+          {from.value[u], from.value[v]}, {e.to.value[u], e.to.value[v]}, {e.center_u, e.center_v}};
+    };
+    return ir::geometry::apart(arc(a, from_a_), arc(b, from_b_), !a.cw);
   }
 
   std::vector<const Event*> a_, b_;

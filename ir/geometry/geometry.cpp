@@ -94,6 +94,20 @@ double swept_angle(Vec p0, Vec p1, Vec centre, bool ccw) {
   return angle <= 0 ? angle + 360 : angle;
 }
 
+double apart(const PlaneArc& a, const PlaneArc& b, bool ccw) {
+  const auto at = [ccw](const PlaneArc& arc, double part) {
+    const double angle = part * swept_angle(arc.from, arc.to, arc.centre, ccw);
+    return turned(arc.from, arc.centre, ccw ? angle : -angle);
+  };
+  double most = 0;
+  constexpr int parts = 8;
+  for (int i = 0; i <= parts; ++i) {
+    const double part = static_cast<double>(i) / parts;
+    most = std::max(most, length(at(a, part) - at(b, part)));
+  }
+  return most;
+}
+
 Vec Element::start_direction() const {
   if (!arc) return normalised(b - a);
   const Vec n = left_of(normalised(a - c));

@@ -35,6 +35,14 @@ bool centre_by_tangent(Vec p0, Vec tangent, Vec p1, Vec& centre, bool& ccw);
 /// Angle in degrees that the arc from p0 to p1 turns through: (0, 360]; 360 when the points are the same.
 double swept_angle(Vec p0, Vec p1, Vec centre, bool ccw);
 
+/// An arc of less than a turn, from `from` about `centre` to the direction of `to`.
+struct PlaneArc {
+  Vec from, to, centre;
+};
+/// The greatest distance between two arcs of one sense, each looked at after equal parts of its way. A short arc of a
+/// large radius hardly moves where its centre does: 15 um of 14 mm leave an arc of 2 degrees where it was.
+double apart(const PlaneArc& a, const PlaneArc& b, bool ccw);
+
 /// A path element in the plane.
 struct Element {
   bool arc = false;

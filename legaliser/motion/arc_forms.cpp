@@ -315,14 +315,26 @@ bool ArcPass::closes(const Arc& arc) const {
   });
 }
 
+/// By its angle an arc ends at the radius with which it begins. Where the source's end lies beside that circle by what
+/// controls allow, the centre moves to the nearest place with the same distance from both: the end stays where it is.
+void ArcPass::end_on_circle(Arc& arc) {
+  const auto c = center_point(arc);
+  if (!c || !known(arc.end)) return;
+  const Vec from = point(arc.start), chord = point(arc.end) - from;
+  const double length = geometry::length(chord);
+  constexpr double fine = 1e-4;
+  if (length < fine || std::fabs(geometry::length(*c - from) - geometry::length(*c - point(arc.end))) < fine) return;
+  const double along = geometry::dot(*c - from, chord) / length - length / 2;
+  set_center(arc, *c - (along / length) * chord);
+}
+
 void ArcPass::helix_angle(Arc& arc) {
   Motion& m = arc.b.motion;
   const bool rises =
       std::any_of(m.coords.begin(), m.coords.end(), [&arc](const CoordWord& c) { return c.axis == arc.axes.w; });
   const bool turns = m.extra && m.extra->has_turns;
   if ((!rises && !turns) || program_.dialect == context_.target.dialect) return;
-  const auto angle = angle_turned(arc);
-  if (!plane_known_ || !angle || (turns && !m.extra->turns.literal()))
+  if (!plane_known_ || !angle_turned(arc) || (turns && !m.extra->turns.literal()))
     return fail(arc, "TRN-311",
                 "a helix whose start or end is not known here; the target wants the angle through which it turns",
                 "program start, end and turns as numbers");
@@ -330,6 +342,8 @@ void ArcPass::helix_angle(Arc& arc) {
     const auto c = centre_by_radius(point(arc.start), point(arc.end), m.radius.number, *arc.ccw, long_chord);
     if (c) set_center(arc, *c);
   }
+  end_on_circle(arc);
+  const auto angle = angle_turned(arc);
   auto extra = m.extra ? std::make_shared<MotionExtra>(*m.extra) : std::make_shared<MotionExtra>();
   extra->has_turns = false;
   extra->has_angle = true;

@@ -259,6 +259,7 @@ class ArcPass {
 
   /// A helix says the whole angle through which it turns.
   void helix_angle(Arc& arc);
+  void end_on_circle(Arc& arc);
   [[nodiscard]] bool closes(const Arc& arc) const;
 
   // --- centres --------------------------------------------------------------------------------------------------

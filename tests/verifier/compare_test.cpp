@@ -210,6 +210,25 @@ TEST(Compare, AnArcShorterThanTheToleranceMayBeMissing) {
   EXPECT_EQ(compare({arc, linear(10)}, {linear(10)}).status, Status::differs);
 }
 
+/// About (cu, cv), counter-clockwise, from where the tool stands.
+Event arc_about(double x, double y, double cu, double cv) {
+  Event e = move(EventKind::arc, x, y, 1);
+  e.center_u = cu;
+  e.center_v = cv;
+  return e;
+}
+
+TEST(Compare, AShortArcIsJudgedByItsPath) {  // docs/verify.md, tolerances
+  // From X0 Y0 to X10 about (0, 100): 6 degrees. A centre 0.0125 mm aside leaves the path within 1.3 um.
+  const auto end = [](double cu, double cv) { return std::vector<Event>{linear(0), arc_about(10, 0.5, cu, cv)}; };
+  EXPECT_TRUE(compare(end(0, 100), end(0.0125, 100.0006)).good());
+  // About (0, 104) it would be at Y0.482 there.
+  EXPECT_EQ(compare(end(0, 100), end(0, 104)).status, Status::differs);
+  // Half a turn: the path goes with its centre.
+  const auto half = [](double cu) { return std::vector<Event>{linear(0), arc_about(20, 0, cu, 0)}; };
+  EXPECT_EQ(compare(half(10), half(10.0035)).status, Status::differs);
+}
+
 Event compensated(double x, double y, ir::CompSide side, ir::Plane plane = ir::Plane::xy) {
   Event e = move(EventKind::linear, x, y, 1);
   e.centre_side = side;
