@@ -88,7 +88,8 @@ void pass_by_repeats(ControlFlow& flow) {
   const auto changes = [](const Statement* s) {
     if (s == nullptr) return false;
     if (const auto* m = std::get_if<ModalCall>(&s->node)) return !m->cycle && !m->off;
-    if (std::holds_alternative<CallRoutine>(s->node) || std::holds_alternative<Opaque>(s->node)) return true;
+    if (const auto* kept = std::get_if<Opaque>(&s->node)) return !kept->harmless;
+    if (std::holds_alternative<CallRoutine>(s->node)) return true;
     const auto* b = std::get_if<Block>(&s->node);
     return b != nullptr && std::any_of(b->actions.begin(), b->actions.end(),
                                        [](const Action& a) { return std::holds_alternative<FrameOp>(a.data); });

@@ -82,7 +82,8 @@ class FrameVariables {
       for_each_statement(r.body, [&](const Statement& s) {
         const auto* repeat = std::get_if<Repeat>(&s.node);
         const auto* call = std::get_if<CallRoutine>(&s.node);
-        if (std::holds_alternative<ModalCall>(s.node) || std::holds_alternative<Opaque>(s.node)) good = false;
+        const auto* kept = std::get_if<Opaque>(&s.node);
+        if (std::holds_alternative<ModalCall>(s.node) || (kept != nullptr && !kept->harmless)) good = false;
         if (repeat != nullptr && (repeat->has_program || repeat->first.computed || repeat->last.computed)) good = false;
         if (call != nullptr && (call->computed || call->has_range || program_.find(call->routine) == nullptr))
           good = false;
