@@ -272,7 +272,8 @@ class PolePass {
   [[nodiscard]] bool stays_polar(const Block& b) const {
     const auto& x = b.motion.extra;
     const bool turns = x && x->has_turns && !x->turns.is(0);
-    return context_.target.polar && !as_point_ && (!turns || context_.target.helix_turns);
+    const bool written_out = b.motion.kind == MotionKind::arc_tangent && !context_.target.arc_tangent;
+    return context_.target.polar && !as_point_ && !written_out && (!turns || context_.target.helix_turns);
   }
 
   /// An angle about the centre: with its radius every target has it, else axis words. False: not known.

@@ -92,7 +92,7 @@ bool is_polar_arc(const Block& b, const Facts& facts) {
 bool is_polar_line(const Block& b, const Facts& facts) {
   if (!b.has_motion || !b.motion.extra) return false;
   const auto kind = motion_in(b, facts);
-  return (kind == MotionKind::linear || kind == MotionKind::rapid) &&
+  return (kind == MotionKind::linear || kind == MotionKind::rapid || kind == MotionKind::arc_tangent) &&
          (b.motion.extra->has_polar_angle || b.motion.extra->has_polar_radius);
 }
 

@@ -65,6 +65,7 @@ std::optional<Point2> place_of(const PoleSet& p, Plane plane, std::optional<Poin
 
 /// An arc, or a line, whose end stands in polar words.
 bool is_polar_arc(const Block& b, const Facts& facts);
+/// Its end alone is said by polar words: a line, or an arc that leaves the element before it in its direction.
 bool is_polar_line(const Block& b, const Facts& facts);
 /// Every motion function of the program is a straight line's.
 bool has_lines_only(const Program& program);
