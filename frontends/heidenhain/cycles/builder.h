@@ -73,11 +73,13 @@ class CycleBuilder {
   bool on_contours();
   bool area();
   bool train();
+  bool to_and_fro(ir::cycles::MillContour line, double top, double bottom);
   bool slot_along();
   bool on_cylinder();
 
   /// Q367: the tool stands at an end or in a corner of the shape; the way from there to its middle.
   bool place();
+  bool place_on_ring();
 
   // told.cpp
 

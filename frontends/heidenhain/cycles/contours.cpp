@@ -17,6 +17,19 @@ using ir::Value;
 using ir::cycles::MillContour;
 using ir::cycles::MillElement;
 
+namespace {
+
+MillElement backwards(const MillElement& e) {
+  return {e.u1, e.v1, e.u0, e.v0, e.arc, !e.ccw, e.cu, e.cv};
+}
+std::vector<MillElement> backwards(const std::vector<MillElement>& way) {
+  std::vector<MillElement> out;
+  for (auto e = way.rbegin(); e != way.rend(); ++e) out.push_back(backwards(*e));
+  return out;
+}
+
+}  // namespace
+
 bool CycleBuilder::on_contours() {
   if (cycle_.labels.empty()) return refuse("cycle 14 stands before it");
   if (!cycle_.area_fault.empty()) return refuse(cycle_.area_fault);
@@ -36,6 +49,7 @@ bool CycleBuilder::train() {
   const auto& line = cycle_.areas.front();
   const double unit = context_.inch ? 25.4 : 1;
   double top = in_space ? n(7) : n(5), bottom = in_space ? top : top + n(1);
+  if (!in_space && n(1) == 0) return skipped_ = true;
   if (in_space && n(1) != 0) return refuse("passes (Q1 not 0) above the heights of the contour are not described");
   for (const double h : line.front().heights) bottom = std::min(bottom, h / unit);
   if (bottom >= top) return refuse("a depth of 0 or above is not carried");
@@ -43,7 +57,6 @@ bool CycleBuilder::train() {
     if (h / unit >= top) return refuse("the contour rises above the clearance height (Q7)");
   }
   if (n(18) != 0) return refuse("Q18 (a coarser tool was there) is not carried");
-  if (n(15) == 0) return refuse("to and fro over the infeeds (Q15=0) is not carried");
   const bool data = cycle_.values.count(390) != 0;
   if (data && cycle_.side != 0) return refuse("beside cycle 270 the label has no compensation of its own");
   const double own = data ? n(391) : 0;
@@ -63,9 +76,32 @@ bool CycleBuilder::train() {
   if (n(3) != 0) word("wall_stock", q(3));
   for (const char* way : {"approach", "leave"}) word(way, Value(arc ? 2 : 1));
   for (const char* way : {"approach_length", "leave_length"}) word(way, Value(length));
-  ir::cycles::put_contours(hole_, line);
   warn("the ways onto the contour and off it are those of this program");
+  if (!in_space && n(15) == 0) return to_and_fro(line.front(), top, bottom);
+  ir::cycles::put_contours(hole_, line);
   return true;
+}
+
+/// 25 with Q15=0: every second level from the end to the start, with the tool on the same side of the contour.
+bool CycleBuilder::to_and_fro(MillContour line, double top, double bottom) {
+  const double infeed = std::abs(n(10));
+  const double count = infeed > 0 ? std::ceil((top - bottom) / infeed - 1e-9) : 1;
+  constexpr double most = 1000;
+  if (count > most) return refuse("it has more levels than anyone mills");
+  MoveList steps;
+  for (double k = 0; k < count; ++k) {
+    ir::HoleCycle level = hole_;
+    level.surface = level_of(Value(top + (bottom - top) * k / count), LevelBase::absolute);
+    level.bottom = level_of(Value(top + (bottom - top) * (k + 1) / count), LevelBase::absolute);
+    ir::cycles::put_contours(level, {line});
+    steps.cycle(std::make_shared<const ir::Cycle>(ir::Cycle{std::move(level)}));
+    line.elements = backwards(line.elements);
+    for (auto& [name, v] : hole_.mill.words) {
+      if (name == "side" && !v.is(40)) v = Value(v.is(41) ? 42 : 41);
+    }
+  }
+  warn("between the levels the tool goes up to the clearance height (Q7)");
+  return told(steps);
 }
 
 /// 21: where the roughing goes down, drilled; 22, 23 and 24 in one pocket of cycle 14.
@@ -115,10 +151,6 @@ bool CycleBuilder::area() {
 
 namespace {
 
-MillElement backwards(const MillElement& e) {
-  return {e.u1, e.v1, e.u0, e.v0, e.arc, !e.ccw, e.cu, e.cv};
-}
-
 /// The outline of the slot of this half width about the line, its ends round. nullopt with a sentence.
 std::optional<MillContour> outline(const std::vector<MillElement>& line, double half, std::string* error) {
   const auto left = ir::cycles::parallel(line, half, true, error),
@@ -129,8 +161,7 @@ std::optional<MillContour> outline(const std::vector<MillElement>& line, double 
   };
   MillContour out;
   out.elements = *left;
-  std::vector<MillElement> back;
-  for (auto e = right->rbegin(); e != right->rend(); ++e) back.push_back(backwards(*e));
+  const std::vector<MillElement> back = backwards(*right);
   out.elements.push_back(end(left->back(), back.front(), line.back().u1, line.back().v1));
   out.elements.insert(out.elements.end(), back.begin(), back.end());
   out.elements.push_back(end(back.back(), left->front(), line.front().u0, line.front().v0));
@@ -223,7 +254,7 @@ bool CycleBuilder::on_cylinder() {
     steps.feed(Value(radius - down), n(11));
     for (const auto& e : way) mill(e);
     if (slot) {
-      for (auto e = way.rbegin(); e != way.rend(); ++e) mill(backwards(*e));
+      for (const auto& e : backwards(way)) mill(e);
     } else {
       steps.rapid(Value(clear));
     }

@@ -16,6 +16,15 @@ using ir::HoleKind;
 using ir::LevelBase;
 using ir::Value;
 
+namespace {
+
+double without_dust(double x) {
+  constexpr double places = 1e10;
+  return std::round(x * places) / places + 0.0;
+}
+
+}  // namespace
+
 bool CycleBuilder::mill() {
   hole_.kind = HoleKind::mill;
   hole_.mill.shape = std::string(cycle_.row->name);
@@ -46,7 +55,7 @@ bool CycleBuilder::mill() {
   for (const auto& p : cycle_.row->parameters) {
     if (p.number != 0 && !mill_word(p.number)) return false;
   }
-  if (cycle_.number != 254 && cycle_.values.count(367) != 0 && !place()) return false;
+  if (cycle_.values.count(367) != 0 && !(cycle_.number == 254 ? place_on_ring() : place())) return false;
   switch (cycle_.number) {
     case 210:
     case 253: word("corner", half(q(219))); break;
@@ -81,10 +90,25 @@ bool CycleBuilder::place() {
     u = at.is(1) || at.is(4) ? a : -a;
     v = at.is(1) || at.is(2) ? b : -b;
   }
-  constexpr double degrees = std::numbers::pi / 180, places = 1e10;
+  constexpr double degrees = std::numbers::pi / 180;
   const double c = std::cos(angle.number * degrees), s = std::sin(angle.number * degrees);
-  const auto plain = [](double x) { return std::round(x * places) / places + 0.0; };
-  aside_ = {Value(plain(c * u - s * v)), Value(plain(s * u + c * v))};
+  aside_ = {Value(without_dust(c * u - s * v)), Value(without_dust(s * u + c * v))};
+  return true;
+}
+
+/// 254 from the tool: at the start of the slot (3), in its middle (2), or at its end (1), seen from the centre of the
+/// circle.
+bool CycleBuilder::place_on_ring() {
+  const Value at = q(367), radius = q(375), angle = q(376), opening = q(248);
+  if (at.is(0)) return true;
+  if (!at.literal() || !radius.literal() || !angle.literal() || !opening.literal())
+    return refuse("where the tool stands in the slot (Q367) must be known by numbers");
+  const double a = angle.number * std::numbers::pi / 180, r = radius.number / 2;
+  std::erase_if(hole_.mill.words, [](const auto& w) { return w.first == "u" || w.first == "v"; });
+  for (auto& [name, v] : hole_.mill.words) {
+    if (name == "angle") v = Value(angle.number - (at.is(1) ? 1 : at.is(2) ? 0.5 : 0) * opening.number);
+  }
+  aside_ = {Value(without_dust(-r * std::cos(a))), Value(without_dust(-r * std::sin(a)))};
   return true;
 }
 
@@ -198,9 +222,6 @@ bool CycleBuilder::mill_word(std::int16_t number) {
       if (!only_value(number)) return false;
       word("plunge_feed", v);
       return true;
-    case Role::place:
-      if (cycle_.number != 254 || v.is(0)) return true;
-      return refuse("Q367 other than 0: where the slots lie depends on the place of the tool; not carried yet");
     case Role::plunge_way:
       if (!v.is(0)) warn("the tool goes straight down, not on a helix or a ramp (Q366)");
       return true;

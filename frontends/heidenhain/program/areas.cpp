@@ -6,6 +6,7 @@
 
 #include "frontends/heidenhain/ways/way.h"
 #include "interpreter/machine/profile_contour.h"
+#include "ir/cycles/milling/pocket_area.h"
 
 namespace cnctrans::frontends::heidenhain {
 
@@ -88,13 +89,7 @@ class AreaReader {
       if (std::string fault = contour(cycle, label, c); !fault.empty()) return "LBL " + label + ": " + fault;
       all.push_back(std::move(c));
     }
-    for (const Contour& c : all) {
-      if (!c.pocket) continue;
-      for (const auto& other : cycle.areas) {
-        if (!box_of(other.front()).apart(box_of(c.line))) return "pockets that touch or overlap are not carried";
-      }
-      cycle.areas.push_back({c.line});
-    }
+    if (std::string fault = pockets(all, cycle.areas); !fault.empty()) return fault;
     if (cycle.areas.empty()) return "none of the contours is a pocket";
     for (const Contour& c : all) {
       if (c.pocket) continue;
@@ -106,6 +101,59 @@ class AreaReader {
         inside = true;
       }
       if (!inside) return "an island lies in no pocket";
+    }
+    return {};
+  }
+
+  static std::string pockets(const std::vector<Contour>& all, std::vector<std::vector<MillContour>>& areas) {
+    std::vector<MillContour> open;
+    std::vector<std::size_t> group;  // the first pocket of those that hang together
+    for (const Contour& c : all) {
+      if (!c.pocket) continue;
+      group.push_back(open.size());
+      for (std::size_t k = 0; k < open.size(); ++k) {
+        if (box_of(open[k]).apart(box_of(c.line))) continue;
+        const std::size_t mine = group.back(), other = group[k];
+        for (auto& g : group) {
+          if (g == mine || g == other) g = std::min(mine, other);
+        }
+      }
+      open.push_back(c.line);
+    }
+    for (std::size_t first = 0; first < open.size(); ++first) {
+      std::vector<MillContour> together;
+      for (std::size_t i = first; i < open.size(); ++i) {
+        if (group[i] == first) together.push_back(open[i]);
+      }
+      if (together.size() == 1) areas.push_back(together);
+      if (together.size() < 2) continue;
+      if (std::string fault = join(together, areas); !fault.empty()) return fault;
+    }
+    return {};
+  }
+  /// Pockets that overlap are one; where the first one begins inside the second, it is what both have (17.3).
+  static std::string join(const std::vector<MillContour>& pockets, std::vector<std::vector<MillContour>>& areas) {
+    using ir::cycles::PocketArea;
+    constexpr double tolerance = 0.001;
+    std::string fault;
+    bool inside = false;
+    for (std::size_t k = 1; k < pockets.size(); ++k) {
+      const auto later = PocketArea::joined({pockets[k]}, false, tolerance, &fault);
+      if (!later) return fault;
+      for (const auto& piece : later->inside(0)) {
+        inside = inside || std::any_of(pockets.begin(), pockets.begin() + static_cast<std::ptrdiff_t>(k), [&](auto& p) {
+                   return ir::cycles::contains(piece, p.elements.front().u0, p.elements.front().v0);
+                 });
+      }
+    }
+    if (inside && pockets.size() > 2)
+      return "one of three pockets or more begins inside of a later one: which part of them is meant is not described";
+    const auto joined = PocketArea::joined(pockets, inside, tolerance, &fault);
+    if (!joined) return fault;
+    for (auto& piece : joined->inside(0)) {
+      auto& area = areas.emplace_back();
+      area.push_back({std::move(piece.outside), {}, {}});
+      for (auto& hole : piece.islands) area.push_back({std::move(hole), {}, {}});
     }
     return {};
   }

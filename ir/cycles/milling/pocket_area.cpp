@@ -149,19 +149,16 @@ std::vector<MillElement> stripes(const PocketPiece& piece, double degrees, doubl
   return out;
 }
 
-std::optional<PocketArea> PocketArea::of(const std::vector<MillContour>& contours, bool first_is_outside,
-                                         double tolerance, std::string* error) {
+namespace {
+
+/// The contours as they are, and the polygons that stand for them. False: one of them is none.
+bool closed_ways(const std::vector<MillContour>& contours, double tolerance, std::vector<PocketWay>& ways,
+                 std::vector<cl::Path>& polygons, std::string* error) {
   const auto no = [error](const char* why) {
     *error = why;
-    return std::nullopt;
+    return false;
   };
   if (contours.empty()) return no("the pocket has no contour");
-  auto data = std::make_shared<Data>();
-  data->tolerance = tolerance;
-  std::vector<cl::Path> polygons;
-  std::vector<PocketWay> ways;
-  std::size_t outside = 0;
-  double largest = 0;
   for (const auto& contour : contours) {
     PocketWay way = contour.elements;
     if (way.empty()) return no("a contour of the pocket has no elements");
@@ -187,12 +184,24 @@ std::optional<PocketArea> PocketArea::of(const std::vector<MillContour>& contour
     const double dust = tolerance * per_mm * per_mm;
     if (area < dust) return no("a contour of the pocket encloses no area");
     if (simple.size() != 1 || std::abs(sum - area) > dust) return no("a contour of the pocket crosses itself");
-    if (area > largest && (!first_is_outside || polygons.empty())) {
-      largest = area;
-      outside = polygons.size();
-    }
     polygons.push_back(std::move(polygon));
     ways.push_back(std::move(way));
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<PocketArea> PocketArea::of(const std::vector<MillContour>& contours, bool first_is_outside,
+                                         double tolerance, std::string* error) {
+  auto data = std::make_shared<Data>();
+  data->tolerance = tolerance;
+  std::vector<cl::Path> polygons;
+  std::vector<PocketWay> ways;
+  if (!closed_ways(contours, tolerance, ways, polygons, error)) return std::nullopt;
+  std::size_t outside = 0;
+  for (std::size_t i = 1; i < polygons.size() && !first_is_outside; ++i) {
+    if (std::abs(cl::Area(polygons[i])) > std::abs(cl::Area(polygons[outside]))) outside = i;
   }
   data->ccw = cl::Orientation(polygons[outside]);
   cl::Paths islands;
@@ -206,7 +215,30 @@ std::optional<PocketArea> PocketArea::of(const std::vector<MillContour>& contour
   data->area = combined(cl::ctDifference, outline, islands);
   const double islands_sum = area_of(islands), islands_in = area_of(combined(cl::ctIntersection, outline, islands));
   data->overlap = std::abs(islands_sum - islands_in) > tolerance;
-  if (data->area.empty()) return no("the islands leave nothing of the pocket");
+  if (data->area.empty()) {
+    *error = "the islands leave nothing of the pocket";
+    return std::nullopt;
+  }
+  PocketArea out;
+  out.data_ = std::move(data);
+  return out;
+}
+
+std::optional<PocketArea> PocketArea::joined(const std::vector<MillContour>& contours, bool common, double tolerance,
+                                             std::string* error) {
+  auto data = std::make_shared<Data>();
+  data->tolerance = tolerance;
+  std::vector<cl::Path> polygons;
+  if (!closed_ways(contours, tolerance, data->walls, polygons, error)) return std::nullopt;
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    if (!cl::Orientation(polygons[i])) {
+      cl::ReversePath(polygons[i]);
+      data->walls[i] = reversed(data->walls[i]);
+    }
+    const cl::Paths one{polygons[i]};
+    data->area = i == 0 ? one : combined(common ? cl::ctIntersection : cl::ctUnion, data->area, one);
+  }
+  data->ccw = true;
   PocketArea out;
   out.data_ = std::move(data);
   return out;
@@ -308,6 +340,10 @@ std::optional<PocketArea> PocketArea::of(const std::vector<MillContour>&, bool, 
       "this build of the program has no polygon library (Debian: libpolyclipping-dev): a pocket along contours "
       "is not carried out";
   return std::nullopt;
+}
+std::optional<PocketArea> PocketArea::joined(const std::vector<MillContour>& contours, bool, double tolerance,
+                                             std::string* error) {
+  return of(contours, true, tolerance, error);
 }
 bool contains(const PocketPiece&, double, double) {
   return false;

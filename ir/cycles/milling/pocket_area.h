@@ -47,6 +47,10 @@ class PocketArea {
   static std::optional<PocketArea> of(const std::vector<MillContour>& contours, bool first_is_outside, double tolerance,
                                       std::string* error);
 
+  /// What closed contours cover together, or (`common`) each of them.
+  static std::optional<PocketArea> joined(const std::vector<MillContour>& contours, bool common, double tolerance,
+                                          std::string* error);
+
   [[nodiscard]] bool outside_ccw() const;  ///< as it is programmed
   [[nodiscard]] bool overlap() const;      ///< contours cross each other
   /// The places at least `distance` (0 or more) from every wall.
