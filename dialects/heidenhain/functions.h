@@ -78,6 +78,9 @@ inline constexpr std::array text_functions{
     TextFunctionRow{"INSTR", ir::Function::index_of, "SRC_ SEA_ BEG"},
     TextFunctionRow{"STRLEN", ir::Function::string_length, "SRC_"},
 };
+/// STRCOMP ( SRC_QS12 SEA_QS14 ): 0 the same, -1 the first one comes before the second, 1 behind it.
+inline constexpr std::string_view text_order_word = "STRCOMP";
+
 constexpr const TextFunctionRow* find_text_function(std::string_view word) {
   for (const auto& f : text_functions) {
     if (f.word == word) return &f;

@@ -90,6 +90,9 @@ inline constexpr std::array system_reads{
     SystemRead{200, 1, ir::Datum::tool_radius, false, false, "radius in force"},
     SystemRead{200, 2, ir::Datum::tool_length, false, false, "length in force"},
     SystemRead{210, 2, ir::Datum::rotation_angle, false, false, "programmed rotation"},
+    SystemRead{210, 3, ir::Datum::mirrored_axes, false, false, "mirrored axes, a bit each"},
+    SystemRead{210, 4, ir::Datum::axis_scale, true, false, "scale of an axis"},
+    SystemRead{220, 2, ir::Datum::programmed_shift, true, false, "datum shift of an axis", true},
     SystemRead{240, 1, ir::Datum::machine_position, true, false, "position from the machine datum"},
     SystemRead{270, 1, ir::Datum::work_position, true, false, "position in the coordinates in force", true},
 };

@@ -160,13 +160,15 @@ double Evaluator::binary(const Node& n) {
 
 double Evaluator::compare_text(const Node& n) {
   const auto op = static_cast<ir::BinaryOp>(n.op);
-  if (op != ir::BinaryOp::eq && op != ir::BinaryOp::ne) {
+  const bool order = op == ir::BinaryOp::lt || op == ir::BinaryOp::gt;
+  if (op != ir::BinaryOp::eq && op != ir::BinaryOp::ne && !order) {
     failure_.fail(code::wrong_type, "a text stands where a number is needed");
     return 0;
   }
   const ExprId right = n.b;
   const auto a = ir::ended_text(text_operand(n.a));
   const auto b = ir::ended_text(text_operand(right));
+  if (order) return (op == ir::BinaryOp::lt ? a < b : b < a) ? 1 : 0;
   return (a == b) == (op == ir::BinaryOp::eq) ? 1 : 0;
 }
 

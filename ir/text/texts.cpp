@@ -121,14 +121,20 @@ std::optional<double> constant_of_texts(const ExprPtr& e) {
     return number_of_text(c->function, *text, *second);
   }
   const auto* b = std::get_if<Binary>(&e->node);
-  if (b == nullptr || (b->op != BinaryOp::eq && b->op != BinaryOp::ne)) return std::nullopt;
+  if (b == nullptr) return std::nullopt;
+  const bool order = b->op == BinaryOp::lt || b->op == BinaryOp::gt;
+  if (b->op != BinaryOp::eq && b->op != BinaryOp::ne && !order) return std::nullopt;
   const auto* left_axis = std::get_if<AxisName>(&b->left->node);
   const auto* right_axis = std::get_if<AxisName>(&b->right->node);
-  if (left_axis != nullptr && right_axis != nullptr)
+  if (left_axis != nullptr && right_axis != nullptr && !order)
     return (left_axis->axis == right_axis->axis) == (b->op == BinaryOp::eq) ? 1 : 0;
   if (b->left->type != Type::string && b->right->type != Type::string) return std::nullopt;
   const auto left = constant_text(b->left), right = constant_text(b->right);
   if (!left || !right) return std::nullopt;
+  if (order)
+    return (b->op == BinaryOp::lt ? ended_text(*left) < ended_text(*right) : ended_text(*right) < ended_text(*left))
+               ? 1
+               : 0;
   return (ended_text(*left) == ended_text(*right)) == (b->op == BinaryOp::eq) ? 1 : 0;
 }
 

@@ -57,6 +57,8 @@ bool never_negative(const ExprPtr& e) {
 
 ExprPtr ExpressionLowering::binary_rule(const Binary& b, const ExprPtr& e) {
   const auto& t = editor_.target();
+  if (is_comparison(b.op) && b.op != BinaryOp::eq && b.op != BinaryOp::ne && b.left->type == Type::string)
+    return fail(e, "which of two texts comes first is not known here, and the target can't tell");
   if ((is_comparison(b.op) || b.op == BinaryOp::logical_and || b.op == BinaryOp::logical_or ||
        b.op == BinaryOp::logical_xor) &&
       !t.relation_as_value)

@@ -152,12 +152,14 @@ class KnownTexts {
       : program_(program), domain_(program, context), states_(program, domain_) {}
 
   void run() {
+    std::vector<std::set<std::string>> left;  // by routine
+    bool closed = true;
     for (auto& r : program_.routines) {
       for_each_statement(r.body, [&](Statement& s) { say(s, r); });
-      left_.clear();
-      const auto read = [this](const ExprPtr& e) {
-        walk(e, [this](const ExprPtr& x) {
-          if (const auto* v = as_variable(x)) left_.insert(v->name);
+      auto& names = left.emplace_back();
+      const auto read = [&names](const ExprPtr& e) {
+        walk(e, [&names](const ExprPtr& x) {
+          if (const auto* v = as_variable(x)) names.insert(v->name);
         });
       };
       for_each_statement(r.body, [&](const Statement& s) {
@@ -165,10 +167,17 @@ class KnownTexts {
         each_axis_expression(s, read);
         const auto* c = std::get_if<CallRoutine>(&s.node);
         for (std::size_t i = 0; c != nullptr && i < c->arguments.size(); ++i) {
-          if (c->arguments[i].by_reference) left_.insert(c->arguments[i].reference.name);
+          if (c->arguments[i].by_reference) names.insert(c->arguments[i].reference.name);
         }
+        closed = closed && (c == nullptr || (!c->computed && program_.find(c->routine) != nullptr)) &&
+                 !std::holds_alternative<ModalCall>(s.node);
       });
-      remove(r.body);
+      left_anywhere_.insert(names.begin(), names.end());
+    }
+    closed_ = closed;
+    for (std::size_t r = 0; r < left.size(); ++r) {
+      left_ = std::move(left[r]);
+      remove(program_.routines[r].body);
     }
   }
 
@@ -229,9 +238,10 @@ class KnownTexts {
         if (d->items.empty()) leave(s);
       } else if (auto* a = std::get_if<Assign>(&s.node)) {
         std::erase_if(a->items, [&](const Assign::Item& i) {
-          return !i.to_system && domain_.holds_no_number(i.target) &&
-                 program_.spaces[i.target.space].scope == Scope::routine && !domain_.name_of(i.target, s).empty() &&
-                 left_.count(i.target.name) == 0 && is_literal(i.value);
+          if (i.to_system || !domain_.holds_no_number(i.target)) return false;
+          const bool own = program_.spaces[i.target.space].scope == Scope::routine;
+          return (own ? left_.count(i.target.name) == 0 : closed_ && left_anywhere_.count(i.target.name) == 0) &&
+                 !domain_.name_of(i.target, s).empty() && is_literal(i.value);
         });
         if (a->items.empty()) leave(s);
       }
@@ -241,7 +251,8 @@ class KnownTexts {
   Program& program_;
   const KnownLiterals domain_;
   const FlowStates<KnownLiterals> states_;
-  std::set<std::string> left_;  ///< variables of the routine that are still read
+  std::set<std::string> left_, left_anywhere_;  ///< variables that are still read: in the routine, in the program
+  bool closed_ = true;                          ///< all that it calls is in the program
 };
 
 /// A text or an axis as a value, other than the words of a message.

@@ -93,6 +93,7 @@ std::string fn_table() {
   for (const auto w : {facts::negate_word, facts::fraction_word, facts::sign_word, facts::pi_word})
     words += std::string(w) + " ";
   for (const auto& f : facts::text_functions) words += std::string(f.word) + " ";
+  words += std::string(facts::text_order_word) + " ";
   for (const auto& o : facts::operators) words += "`" + std::string(o.text) + "` ";
   return s + "| | formulas: " + words + "`||` | carried |\n";
 }

@@ -20,6 +20,7 @@
 #include "frontends/heidenhain/program/leads.h"
 #include "frontends/heidenhain/program/plunge.h"
 #include "frontends/heidenhain/program/structure.h"
+#include "frontends/heidenhain/program/text_labels.h"
 #include "frontends/heidenhain/program/tools.h"
 #include "frontends/heidenhain/program/ways_of_text.h"
 #include "frontends/heidenhain/syntax/reader.h"
@@ -147,7 +148,9 @@ class HeidenhainReader {
       once_more(call, Span{text.file, 1, 1, 1, 1}, Span{text.file, text.source->last_line(), 1, 1, 1});
     };
     again.read = [this](const Item& call, const Span& first, const Span& last) { once_more(call, first, last); };
+    find_text_labels(lowering_, false);
     read_again(lowering_, again);
+    find_text_labels(lowering_, true);
   }
   void read_lines(const SourceText& source, std::uint32_t first, std::uint32_t last) {
     const auto& lines = source.lines();

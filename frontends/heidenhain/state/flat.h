@@ -124,12 +124,14 @@ using Along = std::array<std::int16_t, along_text>;
 struct Item {
   ItemKind kind = ItemKind::plain;
   ir::Statement statement;
-  std::string label;     ///< label, call, repeat, jump: number without leading zeros, or the name in capitals
-  bool number = false;   ///< `label` is a number
-  int index = -1;        ///< cycle: of the definition; pole: of the pole
-  bool moves = false;    ///< a positioning block
-  bool by_pole = false;  ///< the centre of its arc is CC
-  bool polar = false;    ///< its words are polar
+  std::string label;       ///< label, call, repeat, jump: number without leading zeros, or the name in capitals
+  bool number = false;     ///< `label` is a number
+  std::string label_text;  ///< QS5: the text that names the label
+  std::string text_found;  ///< ... and what it is; a copy of that label may have another name
+  int index = -1;          ///< cycle: of the definition; pole: of the pole
+  bool moves = false;      ///< a positioning block
+  bool by_pole = false;    ///< the centre of its arc is CC
+  bool polar = false;      ///< its words are polar
   std::optional<double> tool_radius;  ///< of a cycle call: what TOOL DEF says, in the unit of the program
   bool contour = false;               ///< stands in a label of cycle 14
   int free = -1;                      ///< of the element of a free contour, before it is solved
@@ -187,6 +189,8 @@ struct Arrival {
   bool selected_outside = false;       ///< a program of another file ran since
   bool outside = false;                ///< a program of another file ran since the definition
   bool rewritten = false;              ///< a parameter of the cycle was assigned since its definition
+  /// Of the parameters QS that were assigned; nullopt: not known, or not the same on all ways.
+  std::map<std::string, std::optional<std::string>> texts;
   bool operator==(const Arrival&) const = default;
 };
 

@@ -112,6 +112,14 @@ ir::ExprPtr Lowering::text_function(const Expr& e) {
     }
     return ir::at(value, e.pos);
   }
+  if (e.text == facts::text_order_word) {
+    const ir::ExprPtr a = word("SRC_"), b = word("SEA_");
+    if (a && b)
+      return ir::at(
+          ir::binary(ir::BinaryOp::subtract, ir::binary(ir::BinaryOp::gt, a, b), ir::binary(ir::BinaryOp::lt, a, b)),
+          e.pos);
+  }
+  if (report_.refused()) return nullptr;
   report_.keep("HEI-013", e.pos, "`" + e.text + "`: functions of texts are not carried yet", "language.statement");
   return nullptr;
 }
@@ -213,6 +221,7 @@ bool Lowering::jump(const syntax::Statement& s, ir::BinaryOp op) {
     jump.condition = nullptr;
   }
   Item& item = put(ItemKind::jump, std::move(jump));
+  item.label_text = probe.label_text;
   item.label = probe.label;
   item.number = probe.number;
   return true;
@@ -247,9 +256,11 @@ bool Lowering::sysread(const syntax::Statement& rest) {
   const auto id = number_behind("ID"), nr = number_behind("NR");
   const auto equals = text.find('=');
   auto target_text = variable_behind(0);
-  const bool axis_of_tool = id && nr && *id == 20 && *nr == 3;  // what Q109 says
+  std::optional<double> told;  // what the text itself says, as Q109 and Q113 do
+  if (id && nr && *id == 20 && *nr == 3) told = tool_called_ ? tool_axis_ : -1;
+  if (id && nr && *id == 10 && *nr == 1) told = inch_ ? 1 : 0;
   const auto* row = id && nr ? facts::find_system_read(*id, *nr) : nullptr;
-  if ((row == nullptr && !axis_of_tool) || equals == std::string::npos || !target_text) {
+  if ((row == nullptr && !told) || equals == std::string::npos || !target_text) {
     report_.keep("HEI-027", rest.pos, "FN 18: this datum of the control has no neutral meaning",
                  "language.system_variable");
     return false;
@@ -266,8 +277,8 @@ bool Lowering::sysread(const syntax::Statement& rest) {
     axis = order[static_cast<std::size_t>(*idx)];
   }
   const bool of_tool = *id == 50;
-  auto value = axis_of_tool ? ir::number(tool_called_ ? tool_axis_ : -1)
-                            : datum(row->datum, "ID" + std::to_string(*id) + " NR" + std::to_string(*nr), axis);
+  auto value =
+      told ? ir::number(*told) : datum(row->datum, "ID" + std::to_string(*id) + " NR" + std::to_string(*nr), axis);
   constexpr double inch = 25.4;
   const bool by_unit = row != nullptr && row->by_unit && !ir::is_rotary_letter(axis);
   if (by_unit && inch_) value = ir::binary(ir::BinaryOp::multiply, std::move(value), ir::number(inch));

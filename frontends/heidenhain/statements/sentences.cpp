@@ -7,6 +7,7 @@
 #include "dialects/heidenhain/limits.h"
 #include "dialects/heidenhain/sentences.h"
 #include "frontends/heidenhain/state/lowering.h"
+#include "ir/edit/rewrite.h"
 #include "ir/edit/search.h"
 
 namespace cnctrans::frontends::heidenhain {
@@ -268,6 +269,16 @@ bool Lowering::label_name(const Expr* text, const Word* word, Item& item) {
     item.label = to_upper_ascii(trim(text->text));
     return true;
   }
+  if (word != nullptr && word->is_expression) {
+    const Expr& e = block_->exprs[static_cast<std::size_t>(word->expr)];
+    if (e.kind == ExprKind::variable && e.text == "QS") {
+      const ir::ExprPtr named = expression(e);
+      const auto* parameter = named ? ir::passes::as_variable(named) : nullptr;
+      if (parameter == nullptr) return false;
+      item.label_text = parameter->name;
+      return true;
+    }
+  }
   const double n = word == nullptr ? -1 : word->number;
   const auto number = saturate<std::int64_t>(n);
   if (word == nullptr || word->is_expression || n != static_cast<double>(number) || number < 0 || number > 65535) {
@@ -282,7 +293,7 @@ bool Lowering::label_name(const Expr* text, const Word* word, Item& item) {
 
 bool Lowering::label(const syntax::Statement& s) {
   Item probe;
-  const bool one = block_->words.size() == 1 && block_->words[0].address.empty();
+  const bool one = block_->words.size() == 1 && block_->words[0].address.empty() && !block_->words[0].is_expression;
   if (!label_name(s.args.empty() ? nullptr : &s.args[0], one ? block_->words.data() : nullptr, probe)) return false;
   const bool ends = probe.number && probe.label == "0";
   if (!ends && probe.number) line_.number = program_.keep(probe.label);
@@ -336,8 +347,9 @@ bool Lowering::call_label(const syntax::Statement& s) {
     Item& item = put(ItemKind::call, std::move(call));
     item.label = probe.label;
     item.number = probe.number;
+    item.label_text = probe.label_text;
     item.held = held();
-    called_.emplace((item.number ? "N" : "T") + item.label, item.held);
+    if (!item.label.empty()) called_.emplace((item.number ? "N" : "T") + item.label, item.held);
     return true;
   }
   ir::Repeat repeat;
@@ -346,6 +358,7 @@ bool Lowering::call_label(const syntax::Statement& s) {
   repeat.count = ir::as_expr(value(*count));
   if (report_.refused()) return false;
   Item& item = put(ItemKind::repeat, std::move(repeat));
+  item.label_text = probe.label_text;
   item.label = probe.label;
   item.number = probe.number;
   return true;

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 
+#include "dialects/heidenhain/variables.h"
+
 #include "frontends/heidenhain/ways/from_pole.h"
 #include "frontends/heidenhain/ways/way.h"
+#include "ir/edit/rewrite.h"
+#include "ir/text/texts.h"
 
 namespace cnctrans::frontends::heidenhain {
 
@@ -37,7 +41,35 @@ bool narrow(Arrival& a, const Arrival& b) {
   a.outside = a.outside || b.outside;
   a.rewritten = a.rewritten || b.rewritten;
   a.selected_outside = a.selected_outside || b.selected_outside;
+  for (const auto& [name, text] : b.texts) a.texts.try_emplace(name);
+  for (auto& [name, text] : a.texts) {
+    const auto other = b.texts.find(name);
+    if (other == b.texts.end() || other->second != text) text.reset();
+  }
   return !(a == before);
+}
+
+bool is_text(const ir::Assign::Item& item) {
+  return item.target.space == dialects::heidenhain::space_qs;
+}
+bool sets_text(const Item& i) {
+  const auto* assign = std::get_if<ir::Assign>(&i.statement.node);
+  return assign != nullptr && std::any_of(assign->items.begin(), assign->items.end(), is_text);
+}
+/// What an assignment makes of the texts.
+void follow_texts(const Item& i, Arrival& a) {
+  const auto known = [&a](const ir::ExprPtr& e) {
+    const auto* v = ir::passes::as_variable(e);
+    const auto it = v == nullptr ? a.texts.end() : a.texts.find(v->name);
+    return it == a.texts.end() || !it->second ? e : ir::string_literal(*it->second);
+  };
+  const auto* assign = std::get_if<ir::Assign>(&i.statement.node);
+  for (const auto& item : assign->items) {
+    if (!is_text(item)) continue;
+    auto text = ir::constant_text(ir::passes::map_expr(item.value, known));
+    if (i.statement.line.skip_mask != 0) text.reset();
+    a.texts[item.target.name] = std::move(text);
+  }
 }
 
 /// The plane that the item selects.
@@ -140,6 +172,7 @@ Arrival Flow::after(int item, Arrival a) const {
     case ItemKind::program:
       a.outside = a.outside || !i.defines_none;
       a.selected_outside = a.moved = a.written = true;
+      for (auto& [name, text] : a.texts) text.reset();
       return a;
     default: break;
   }
@@ -153,6 +186,7 @@ Arrival Flow::after(int item, Arrival a) const {
     a.selected_outside = false;
   }
   if (!i.writes.empty()) a.written = a.rewritten = true;
+  if (sets_text(i)) follow_texts(i, a);
   if (i.call == CycleCall::modal) {
     a.modal = 1;
   } else if (i.call == CycleCall::ends || i.at_pattern || (i.call == CycleCall::once && i.moves)) {
@@ -169,6 +203,7 @@ void Flow::find_sets() {
     to.plane = to.plane || from.plane;
     to.pattern = to.pattern || from.pattern;
     to.cycle = to.cycle || from.cycle;
+    to.texts = to.texts || from.texts;
     for (std::size_t k = 0; k < along_text; ++k) to.text[k] = to.text[k] || from.text[k];
   };
   for (bool changed = true; changed;) {
@@ -178,9 +213,13 @@ void Flow::find_sets() {
       for (std::size_t at = 0; at < flat_.items.size(); ++at) {
         if (!root.reached[at]) continue;
         const Item& i = flat_.items[at];
-        Sets own{
-            i.tool >= 0, i.plunge >= 0, plane_in(i).has_value(), i.pattern != Arrival::none, i.kind == ItemKind::cycle,
-            {}};
+        Sets own{i.tool >= 0,
+                 i.plunge >= 0,
+                 plane_in(i).has_value(),
+                 i.pattern != Arrival::none,
+                 i.kind == ItemKind::cycle,
+                 sets_text(i) || i.kind == ItemKind::program,
+                 {}};
         for (std::size_t k = 0; k < along_text; ++k) own.text[k] = i.sets[k] >= 0;
         add(root.sets, own);
         const auto callee = i.kind == ItemKind::call ? root_of(i) : std::nullopt;
@@ -206,6 +245,7 @@ Arrival Flow::behind_call(const Arrival& before, Arrival out, const Sets& sets) 
   if (!sets.plane) out.plane = before.plane;
   if (!sets.pattern) out.pattern = before.pattern;
   if (!sets.cycle) out.cycle = before.cycle;
+  if (!sets.texts) out.texts = before.texts;
   for (std::size_t k = 0; k < along_text; ++k) {
     if (!sets.text[k]) out.text[k] = before.text[k];
   }

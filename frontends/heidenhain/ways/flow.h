@@ -21,7 +21,7 @@ class Flow {
   [[nodiscard]] int label(const Item& use) const;
   /// What else comes behind a call than before it.
   struct Sets {
-    bool tool = false, plunge = false, plane = false, pattern = false, cycle = false;
+    bool tool = false, plunge = false, plane = false, pattern = false, cycle = false, texts = false;
     std::array<bool, along_text> text{};
     bool operator==(const Sets&) const = default;
   };
