@@ -6,6 +6,7 @@
 #include "frontends/heidenhain/program/cycle_calls.h"
 #include "frontends/heidenhain/state/datum.h"
 #include "frontends/heidenhain/ways/from_pole.h"
+#include "ir/edit/rewrite.h"
 
 namespace cnctrans::frontends::heidenhain {
 
@@ -22,6 +23,7 @@ class Finisher {
 
   void run(std::vector<std::vector<ir::Statement>>& out) {
     for (std::size_t i = 0; i < flat_.items.size(); ++i) {
+      other_planes(i);
       if (flat_.items[i].polar) poles_stay_ = true;
       if (flat_.items[i].by_pole && !(flat_.items[i].contour && !arrival(i).reached)) centre(i);
     }
@@ -39,6 +41,34 @@ class Finisher {
     item.statement.node = std::move(o);
     item.moves = item.by_pole = false;
     item.call = CycleCall::none;
+  }
+
+  /// A pole along the tool axis counts for the lines that were read about it, and for no others.
+  void other_planes(std::size_t i) {
+    Item& item = flat_.items[i];
+    const Arrival& a = arrival(i);
+    if (!a.reached || !(item.polar || item.by_pole || item.other_pole >= 0)) return;
+    const Pole* pole = a.pole < 0 ? nullptr : &flat_.poles[static_cast<std::size_t>(a.pole)];
+    const bool other = pole != nullptr && pole->other;
+    if (item.other_pole < 0 ? !other : a.pole == item.other_pole && (!a.written || holds_still(i, *pole))) return;
+    lowering_.report().start(item.statement.line.span);
+    lowering_.report().keep("HEI-008", {},
+                            "whether CC lies in the plane of the tool here, and where, depends on the way",
+                            "motion.geometry", "write the points with L");
+    keep_text(item, "motion.geometry", "LP");
+    item.polar = false;
+  }
+  /// The variables of the pole are not written behind its CC.
+  [[nodiscard]] bool holds_still(std::size_t line, const Pole& pole) const {
+    const auto cc = std::find_if(flat_.items.begin(), flat_.items.end(), [&](const Item& i) {
+      return i.kind == ItemKind::pole && i.index == flat_.items[line].other_pole;
+    });
+    return std::none_of(cc, flat_.items.end(), [&](const Item& i) {
+      return std::any_of(i.writes.begin(), i.writes.end(), [&](const ir::VarRef& v) {
+        return std::any_of(pole.words.begin(), pole.words.end(),
+                           [&](const auto& w) { return w.value.expr && ir::passes::reads(w.value.expr, v); });
+      });
+    });
   }
 
   // --- arcs ----------------------------------------------------------------------------------------------------------
@@ -153,7 +183,8 @@ class Finisher {
     switch (item.kind) {
       case ItemKind::cycle: cycles_.definition(item, out); return;
       case ItemKind::pole:
-        if (poles_stay_ ? pole_statement(item) : remark) out.push_back(std::move(item.statement));
+        if (poles_stay_ && !flat_.poles[static_cast<std::size_t>(item.index)].other ? pole_statement(item) : remark)
+          out.push_back(std::move(item.statement));
         return;
       case ItemKind::sub_end:
         if (remark) out.push_back(std::move(item.statement));

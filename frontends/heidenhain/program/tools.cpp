@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "frontends/heidenhain/program/ways_of_text.h"
+#include "ir/edit/rewrite.h"
 
 namespace cnctrans::frontends::heidenhain {
 
@@ -43,6 +44,35 @@ bool take(Lowering& lowering, Item& item, const ToolState& tool) {
   return true;
 }
 
+/// Q108 is the radius that TOOL DEF says, where the ways bring one tool without an oversize.
+void write_radius(Flat& flat) {
+  bool asked = false;
+  const auto is_radius = [](const ir::ExprPtr& e) {
+    const auto* s = std::get_if<ir::SystemRef>(&e->node);
+    return s != nullptr && s->datum == ir::Datum::tool_radius && s->args.empty();
+  };
+  const auto asks = [&](const ir::ExprPtr& e) { asked = asked || is_radius(e); };
+  for (const Item& i : flat.items) ir::passes::each_expression(i.statement, asks);
+  for (const Pole& p : flat.poles) {
+    for (const auto& w : p.words) asked = asked || w.value.expr;
+  }
+  if (!asked || flat.tools.empty()) return;
+  const Flow flow(flat);
+  for (std::size_t n = 0; n < flat.items.size(); ++n) {
+    Item& item = flat.items[n];
+    const int tool = flow.arrivals()[n].tool;
+    const ToolState* state = tool < 0 ? nullptr : &flat.tools[static_cast<std::size_t>(tool)];
+    if (state == nullptr || !state->radius || state->oversize) continue;
+    const auto known = [&](const ir::ExprPtr& e) { return is_radius(e) ? ir::number(*state->radius) : e; };
+    const auto in = [&](const ir::ExprPtr& e) { return ir::passes::map_expr(e, known); };
+    ir::passes::visit_statement(item.statement, {in, {}});
+    if (item.kind != ItemKind::pole) continue;
+    for (auto& w : flat.poles[static_cast<std::size_t>(item.index)].words) {
+      if (w.value.expr) w.value = ir::Value(in(w.value.expr));
+    }
+  }
+}
+
 }  // namespace
 
 bool asks_tool(const Flat& flat, const Item& item, const Arrival& arrival) {
@@ -53,6 +83,7 @@ bool asks_tool(const Flat& flat, const Item& item, const Arrival& arrival) {
 
 void take_tools(Lowering& lowering, bool all) {
   Flat& flat = lowering.flat();
+  if (!all) write_radius(flat);
   if (flat.tools.size() < 2) return;
   const Flow flow(flat);
   for (std::size_t i = 0; i < flat.items.size(); ++i) {

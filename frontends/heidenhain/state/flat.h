@@ -51,6 +51,7 @@ struct QValue {
 struct ToolState {
   std::optional<ir::Value> feed, speed;
   std::optional<double> radius;  ///< as TOOL DEF says it, in the unit of the program
+  bool oversize = false;         ///< TOOL CALL has DR
 };
 /// A numbered part of an old cycle: what stands behind `1.3`.
 struct OldPartValue {
@@ -82,6 +83,7 @@ struct CycleDefinition {
 struct Pole {
   std::vector<ir::FrameWord> words;  ///< in the plane
   std::vector<bool> incremental;     ///< of each word: from the tool
+  std::optional<ir::Plane> other;    ///< it lies in a plane along the tool axis
 };
 
 /// APPR and DEP: the way onto a contour and off it (reference 6).
@@ -132,6 +134,7 @@ struct Item {
   bool moves = false;      ///< a positioning block
   bool by_pole = false;    ///< the centre of its arc is CC
   bool polar = false;      ///< its words are polar
+  int other_pole = -1;     ///< of the CC in another plane about which its end was counted
   std::optional<double> tool_radius;  ///< of a cycle call: what TOOL DEF says, in the unit of the program
   bool contour = false;               ///< stands in a label of cycle 14
   int free = -1;                      ///< of the element of a free contour, before it is solved

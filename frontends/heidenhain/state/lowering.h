@@ -162,6 +162,8 @@ class Lowering {
   ir::ToolSelect tool_of(const syntax::Word* number, const syntax::Statement& s);
   bool corner(const Word& w, ir::CornerKind kind);
   bool pole();
+  /// `counts`: the line counts from the pole.
+  bool polar_in_other_plane(bool straight, bool counts);
   bool free_element(const syntax::Statement& s);
   bool lead(const syntax::Statement& s, bool departure);
   void axis_word(const Word& w, ir::AxisId axis, bool incremental);
@@ -242,7 +244,9 @@ class Lowering {
   std::set<ir::FrameKind> outer_;         ///< mirror, rotation and scale that were programmed outside of a tilt
   std::map<std::int64_t, double> radii_;  ///< TOOL DEF n R
   std::optional<double> radius_;          ///< of the tool of the last TOOL CALL, as TOOL DEF says it
+  bool oversize_ = false;                 ///< that TOOL CALL has DR
   bool scaled_about_ = false;             ///< cycle 26 has a centre
+  int other_pole_ = -1;                   ///< the last CC, where it lies in another plane than that of the tool
   bool shortest_ = false;                 ///< M126
   int plunge_ = -1;                       ///< M103 in the line at hand: index of its share
   bool feed_by_fu_ = false;               ///< the last F was FU

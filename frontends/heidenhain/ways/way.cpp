@@ -359,6 +359,7 @@ std::optional<Pair> Way::start_direction(const Item& element) const {
 }
 
 void Way::set_pole(const Pole& pole) {
+  if (pole.other) return pole_.reset();
   const auto p = plane();
   std::array<std::optional<Term>, 2> out;
   const bool none = pole.words.empty();

@@ -204,7 +204,9 @@ bool Lowering::path() {
   }
   PathLine line;
   line.form = form_of(first);
-  if (!path_words(line) || !path_fits(line) || !path_motion(line)) return false;
+  if (!path_words(line) || !path_fits(line) || !path_motion(line) ||
+      !polar_in_other_plane(line.straight(), line.polar() || line.about_pole()))
+    return false;
   if (retract_ || retract_far_) retract(line.retract_feed);
   if (from_maker_point_) {
     for (auto& c : out_.motion.coords) {
@@ -367,7 +369,8 @@ void Lowering::put_path(const PathLine& line) {
     Item& item = put(ItemKind::plain, std::move(out_));
     item.moves = moves;
     item.by_pole = line.about_pole();
-    item.polar = line.polar() && line.form != Form::polar_arc;
+    item.polar = line.polar() && line.form != Form::polar_arc && other_pole_ < 0;
+    if (line.polar()) item.other_pole = other_pole_;
     item.call = call_;
     item.plunge = plunge_;
   }
@@ -464,32 +467,6 @@ bool Lowering::corner(const Word& first, ir::CornerKind kind) {
   ir::Action& a = block->actions.emplace_back();
   a.data = std::move(corner);
   if (!line_.comments.empty()) put(ir::Block{});
-  return true;
-}
-
-/// CC: centre of arcs and pole.
-bool Lowering::pole() {
-  Pole pole;
-  for (std::size_t i = 1; i < block_->words.size(); ++i) {
-    const Word& w = block_->words[i];
-    if (remark(w)) break;
-    const bool incremental = is_incremental(w.address);
-    const ir::AxisId axis = axis_of(incremental ? w.address.substr(1) : w.address);
-    if (axis == ir::axis::none || axis > ir::axis::z || !w.has_value) {
-      report_.refuse("HEI-002", w.pos, "`" + std::string(slice(w)) + "` means nothing beside CC", {}, "block.word");
-      return false;
-    }
-    ir::FrameWord f;
-    f.axis = axis;
-    f.value = value(w);
-    f.pos = w.pos;
-    pole.words.push_back(std::move(f));
-    pole.incremental.push_back(incremental);
-  }
-  if (report_.refused()) return false;
-  flat_.poles.push_back(std::move(pole));
-  Item& item = put(ItemKind::pole, ir::Block{});
-  item.index = static_cast<int>(flat_.poles.size()) - 1;
   return true;
 }
 

@@ -17,6 +17,7 @@ bool Lowering::tool_call(const syntax::Statement& s) {
   const Word* speed = nullptr;
   const Word* own_feed = nullptr;
   std::optional<int> axis;
+  bool oversized = false;
   for (std::size_t i = 0; i < block_->words.size(); ++i) {
     Word w = block_->words[i];
     const auto is = [&](std::string_view a) { return iequals_ascii(w.address, a); };
@@ -37,6 +38,7 @@ bool Lowering::tool_call(const syntax::Statement& s) {
       own_feed = &block_->words[i];
     } else if (is("DL") || is("DR")) {
       if (w.has_value && !w.is_expression && w.number == 0) continue;
+      oversized = oversized || is("DR");
       report_.warn("HEI-015", w.pos,
                    "`" + std::string(slice(w)) + "`: the oversize of the tool is kept as text; it is not in the path");
       act(w, ir::OpaqueWord{slice(w)}, ir::Order::with);
@@ -52,6 +54,7 @@ bool Lowering::tool_call(const syntax::Statement& s) {
     const auto known =
         number == nullptr || number->is_expression ? radii_.end() : radii_.find(saturate<std::int64_t>(number->number));
     radius_ = known == radii_.end() ? std::nullopt : std::optional(known->second);
+    oversize_ = oversized;
   }
   Word at;
   at.pos = s.pos;
@@ -98,10 +101,10 @@ int Lowering::tool_state() {
   };
   auto& all = flat_.tools;
   const auto it = std::find_if(all.begin(), all.end(), [&](const ToolState& t) {
-    return same(t.feed, tool_feed_) && same(t.speed, speed_) && t.radius == radius_;
+    return same(t.feed, tool_feed_) && same(t.speed, speed_) && t.radius == radius_ && t.oversize == oversize_;
   });
   const auto index = static_cast<int>(it - all.begin());
-  if (it == all.end()) all.push_back({tool_feed_, speed_, radius_});
+  if (it == all.end()) all.push_back({tool_feed_, speed_, radius_, oversize_});
   return index;
 }
 
