@@ -99,7 +99,8 @@ const CycleRun* CyclePairs::next_run(std::size_t k, bool source) const {
   return nullptr;
 }
 
-CyclePairs::Next CyclePairs::next_cycle(const CyclePasses& target, const PairPlace& at) const {
+CyclePairs::Next CyclePairs::next_cycle(const CyclePasses& source, const CyclePasses& target,
+                                        const PairPlace& at) const {
   const bool tap = target.run->family == "tap";
   if (target.run->family != "pocket" && !tap) return Next::elsewhere;
   const auto axes = ir::plane_axes(target.run->plane);
@@ -115,7 +116,7 @@ CyclePairs::Next CyclePairs::next_cycle(const CyclePasses& target, const PairPla
     v1 = any ? std::max(v1, v + by) : v + by;
     any = true;
   };
-  for (const Event* e : target.events) {
+  for (const Event* e : source.events) {
     if (!cuts(e)) continue;
     const double u = e->to.value[axes.u], v = e->to.value[axes.v];
     widen(u, v, 0);
@@ -123,12 +124,12 @@ CyclePairs::Next CyclePairs::next_cycle(const CyclePasses& target, const PairPla
     if (e->kind == EventKind::arc && e->plane == target.run->plane)
       widen(e->center_u, e->center_v, std::hypot(u - e->center_u, v - e->center_v));
   }
-  /// The next cycle of the side machines the same pocket.
-  const auto here = [&](std::size_t k, bool source) {
-    const auto* next = next_run(k, source);
+  /// The next cycle of the side machines the same pocket, or one of the same slots.
+  const auto here = [&](std::size_t k, bool of_source) {
+    const auto* next = next_run(k, of_source);
     if (!any || next == nullptr || next == target.run || next->family != target.run->family) return false;
-    const auto& events = source ? a_ : b_;
-    while (k < events.size() && (number(events[k], source) < next->first || !cuts(events[k]))) ++k;
+    const auto& events = of_source ? a_ : b_;
+    while (k < events.size() && (number(events[k], of_source) < next->first || !cuts(events[k]))) ++k;
     if (k == events.size()) return false;
     const double u = events[k]->to.value[axes.u], v = events[k]->to.value[axes.v];
     const double by = tap ? options_.tolerances.length : target.run->radius;
@@ -161,7 +162,7 @@ std::optional<PairPlace> CyclePairs::skip(const CycleRun& run, const PairPlace& 
   std::uint64_t last_of_target = target.run->last;
   // Roughing and finishing, or the pecks of a tap, are cycles of their own. Where the source machines the place once
   // more, the translation has its next cycle as soon as this one is complete.
-  for (Next next = next_cycle(target, at); next != Next::elsewhere; next = next_cycle(target, at)) {
+  for (Next next = next_cycle(source, target, at); next != Next::elsewhere; next = next_cycle(source, target, at)) {
     double length = max_length;
     const bool complete = similar_difference(source, target, options_.tolerances, length).empty();
     if (complete && (next == Next::here_of_both || target.run->family == "tap")) break;

@@ -38,10 +38,10 @@ class CyclePairs {
   }
   /// The cycle to which rapid moves lead from there; null: none.
   [[nodiscard]] const interpreter::CycleRun* next_run(std::size_t k, bool source) const;
-  /// What the translation's next cycle is to `target`: one in the same pocket or tap, and whether the source's next is
-  /// one there, too.
+  /// What the translation's next cycle is to `source` and `target`: one in the same pocket, slots or tap, and whether
+  /// the source's next is one there, too.
   enum class Next { elsewhere, here, here_of_both };
-  [[nodiscard]] Next next_cycle(const CyclePasses& target, const PairPlace& at) const;
+  [[nodiscard]] Next next_cycle(const CyclePasses& source, const CyclePasses& target, const PairPlace& at) const;
   [[nodiscard]] const interpreter::CycleRun* run_at(std::size_t j, bool source) const;
 
   const std::vector<const interpreter::Event*>&a_, &b_;

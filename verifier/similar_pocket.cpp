@@ -49,6 +49,25 @@ const std::array<PocketPoint, directions>& ways_around() {
   return ways;
 }
 
+/// What the tool sweeps in the plane lies in it.
+struct Extent {
+  double u0 = 0, v0 = 0, u1 = 0, v1 = 0;
+  Extent(const PocketMove& m, double r) {
+    u0 = u1 = m.points.front().u;
+    v0 = v1 = m.points.front().v;
+    for (const auto& p : m.points) join({p.u, p.v, p.u, p.v});
+    join({u0 - r, v0 - r, u1 + r, v1 + r});
+  }
+  Extent(double low_u, double low_v, double high_u, double high_v) : u0(low_u), v0(low_v), u1(high_u), v1(high_v) {}
+  [[nodiscard]] bool meets(const Extent& o) const { return u0 <= o.u1 && o.u0 <= u1 && v0 <= o.v1 && o.v0 <= v1; }
+  void join(const Extent& o) {
+    u0 = std::min(u0, o.u0);
+    v0 = std::min(v0, o.v0);
+    u1 = std::max(u1, o.u1);
+    v1 = std::max(v1, o.v1);
+  }
+};
+
 class Side {
  public:
   Side(const CyclePasses& passes, const CycleRun& run) : run_(run), axes_(ir::plane_axes(run.plane)) {
@@ -71,13 +90,32 @@ class Side {
   [[nodiscard]] double radius() const { return run_.radius; }
   [[nodiscard]] double surface() const { return run_.surface * run_.out; }
 
-  /// How far the part is cut in each direction; `floor`: at the floor only.
-  [[nodiscard]] std::array<double, directions> reach(bool floor, double room) const {
+  /// The places that it cuts, apart from each other: one for a pocket, one for each of several slots.
+  [[nodiscard]] std::vector<Extent> places() const {
+    std::vector<Extent> out;
+    for (const auto& m : moves_) {
+      if (!cuts(*m.event)) continue;
+      Extent box(m, radius());
+      for (auto it = out.begin(); it != out.end();) {
+        if (!it->meets(box)) {
+          ++it;
+          continue;
+        }
+        box.join(*it);
+        out.erase(it);
+        it = out.begin();  // it may meet others now
+      }
+      out.push_back(box);
+    }
+    return out;
+  }
+  /// How far the part is cut there in each direction; `floor`: at the floor only.
+  [[nodiscard]] std::array<double, directions> reach(const Extent& place, bool floor, double room) const {
     std::array<double, directions> out{};
     out.fill(-std::numeric_limits<double>::infinity());
     const auto& toward = ways_around();
     for (const auto& m : moves_) {
-      if (!cuts(*m.event)) continue;
+      if (!cuts(*m.event) || !place.meets(Extent(m, 0))) continue;
       for (std::size_t k = 1; k < m.points.size(); ++k) {
         for (const PocketPoint& p : {m.points[k - 1], m.points[k]}) {
           if (floor ? p.w > lowest_ + room : p.w > surface() - room) continue;
@@ -201,7 +239,7 @@ class Grid {
 class Pockets {
  public:
   Pockets(const CyclePasses& source, const CyclePasses& target, const Tolerances& tolerances)
-      : a_(source, *source.run), b_(target, *target.run), t_(tolerances) {}
+      : a_(source, *source.run), b_(target, *target.run), places_(a_.places()), t_(tolerances) {}
   double apart = 0;
 
   std::string difference() {
@@ -210,21 +248,49 @@ class Pockets {
     if (std::fabs(a_.surface() - b_.surface()) > t_.contour) return "the two pockets begin at other heights";
     std::string what = walls(true);
     if (what.empty()) what = walls(false);
+    if (what.empty()) what = elsewhere();
     if (what.empty()) what = feeds();
     if (what.empty()) what = material();
     if (what.empty()) what = infeeds();
     if (what.empty() && begin(b_) < a_.surface() + t_.contour && begin(a_) > a_.surface() + t_.contour)
       what = "a rapid move of the translation's cycle comes down to the material";
+    if (what.empty() && across(b_) < across(a_) - t_.contour && across(a_) < std::numeric_limits<double>::infinity())
+      what = "the translation goes across to its cycle lower than the source does";
     return what;
   }
 
  private:
+  /// How low the tool goes in the plane before it cuts; infinite: it does not.
+  static double across(const Side& side) {
+    double low = std::numeric_limits<double>::infinity();
+    for (const auto& m : side.moves()) {
+      if (cuts(*m.event)) break;
+      const PocketPoint &from = m.points.front(), &to = m.points.back();
+      if (std::hypot(to.u - from.u, to.v - from.v) > 1e-6) low = std::min({low, from.w, to.w});
+    }
+    return low;
+  }
+  /// The place that the move cuts; null: none of the source's.
+  [[nodiscard]] const Extent* place_of(const PocketMove& m) const {
+    const Extent box(m, 0);
+    const auto it = std::find_if(places_.begin(), places_.end(), [&box](const Extent& p) { return p.meets(box); });
+    return it == places_.end() ? nullptr : &*it;
+  }
+  [[nodiscard]] std::string elsewhere() const {
+    for (const auto& m : b_.moves()) {
+      if (cuts(*m.event) && place_of(m) == nullptr)
+        return "the translation's cycle cuts where the source's does not, at " + said(m);
+    }
+    return {};
+  }
   std::string walls(bool floor) {
-    const auto there = a_.reach(floor, t_.contour), here = b_.reach(floor, t_.contour);
     double most = 0;
-    for (std::size_t d = 0; d < directions; ++d) {
-      if (std::isinf(there[d]) != std::isinf(here[d])) return "one of the two pockets has no walls";
-      if (!std::isinf(there[d])) most = std::max(most, std::fabs(there[d] - here[d]));
+    for (const Extent& place : places_) {
+      const auto there = a_.reach(place, floor, t_.contour), here = b_.reach(place, floor, t_.contour);
+      for (std::size_t d = 0; d < directions; ++d) {
+        if (std::isinf(there[d]) != std::isinf(here[d])) return "one of the two pockets has no walls";
+        if (!std::isinf(there[d])) most = std::max(most, std::fabs(there[d] - here[d]));
+      }
     }
     if (most > t_.contour) return fmt::format("the walls of the two pockets are {} mm apart", rounded(most, 4));
     apart = std::max(apart, most);
@@ -251,12 +317,16 @@ class Pockets {
     return Role::plane;
   }
   [[nodiscard]] std::string feeds() const {
-    const auto walls = a_.reach(false, t_.contour);
+    std::vector<std::array<double, directions>> walls;
+    for (const Extent& place : places_) walls.push_back(a_.reach(place, false, t_.contour));
+    const auto walls_at = [&](const PocketMove& m) -> const auto& {
+      return walls[place_of(m) - places_.data()];
+    };
     std::set<Role> roles;
     std::vector<std::pair<Role, const Event*>> there;
     for (const auto& m : a_.moves()) {
       if (!cuts(*m.event)) continue;
-      there.emplace_back(role_of(m, walls), m.event);
+      there.emplace_back(role_of(m, walls_at(m)), m.event);
       roles.insert(there.back().first);
     }
     const bool dives = std::any_of(a_.moves().begin(), a_.moves().end(), [this](const PocketMove& m) {
@@ -264,7 +334,7 @@ class Pockets {
     });
     for (const auto& m : b_.moves()) {
       if (!cuts(*m.event)) continue;
-      const Role role = role_of(m, walls);
+      const Role role = role_of(m, walls_at(m));
       if (dives && role == Role::plunge) continue;  // at feed where the source goes down in rapid
       const bool known = std::any_of(there.begin(), there.end(), [&](const auto& o) {
         return (o.first == role || roles.count(role) == 0) && o.second->feed_mode == m.event->feed_mode &&
@@ -350,6 +420,7 @@ class Pockets {
   }
 
   Side a_, b_;
+  std::vector<Extent> places_;
   const Tolerances& t_;
 };
 

@@ -22,7 +22,23 @@ struct MillCycle {
   std::int16_t number;
   std::array<MillRow, 14> rows;
 };
+/// Of several for one shape the first that has all its words.
 constexpr std::array mill_cycles{
+    MillCycle{"pocket.rect",
+              253,
+              {{{"operation", 215},
+                {"length", 218, 1, true},
+                {"width", 219, 1, true},
+                {"corner", 219, 2, true},  // the ends are round
+                {"wall_stock", 368},
+                {"angle", 374},
+                {"mill_feed", 207, 1, true},
+                {"sense", 351, 1, true},
+                {"infeed", 202},
+                {"floor_stock", 369},
+                {"plunge_feed", 206, 1, true},
+                {"finish_infeed", 338},
+                {"finish_feed", 385}}}},
     MillCycle{"pocket.rect",
               251,
               {{{"operation", 215},
@@ -78,38 +94,47 @@ const MillRow* find_row(const MillCycle& cycle, std::string_view parameter) {
   return nullptr;
 }
 
+/// 0: it can't say the words.
+int mill_text(const MillCycle& cycle, const ir::HoleCycle& c, std::map<std::int16_t, Value>& values) {
+  int needed = 0;
+  for (const auto& row : cycle.rows) needed += row.needed ? 1 : 0;
+  bool outside = false;
+  for (const auto& [name, v] : c.mill.words) {
+    if (name == "external") {
+      outside = !v.is(0);
+      continue;
+    }
+    const MillRow* row = find_row(cycle, name);
+    if (row == nullptr) {
+      if (v.is(0)) continue;
+      return 0;
+    }
+    if (row->needed && (name == "sense" || !(v.literal() && v.number == 0))) --needed;
+    Value q = row->factor == 1 ? v : ir::scale(v, row->factor);
+    if (name == "sense") {
+      if (!v.is(0) && !v.is(1)) return 0;
+      q = Value(v.is(0) ? 1 : -1);
+    }
+    if (name == "step_factor" && (!q.literal() || q.number > largest_overlap + 1e-9)) return 0;
+    const auto said = values.find(row->q);
+    if (said != values.end() && !ir::equal(said->second, q)) return 0;
+    values[row->q] = std::move(q);
+  }
+  if (needed != 0) return 0;
+  if (find_row(cycle, "sense") != nullptr) values.emplace(351, Value(1));
+  return outside ? 267 : cycle.number;
+}
+
 }  // namespace
 
 int mill_text(const ir::HoleCycle& c, std::map<std::int16_t, Value>& values) {
   for (const auto& cycle : mill_cycles) {
     if (cycle.shape != c.mill.shape) continue;
-    int needed = 0;
-    for (const auto& row : cycle.rows) needed += row.needed ? 1 : 0;
-    bool outside = false;
-    for (const auto& [name, v] : c.mill.words) {
-      if (name == "external") {
-        outside = !v.is(0);
-        continue;
-      }
-      const MillRow* row = find_row(cycle, name);
-      if (row == nullptr) {
-        if (v.is(0)) continue;
-        return 0;
-      }
-      if (row->needed && !(v.literal() && v.number == 0)) --needed;
-      Value q = row->factor == 1 ? v : ir::scale(v, row->factor);
-      if (name == "sense") {
-        if (!v.is(0) && !v.is(1)) return 0;
-        q = Value(v.is(0) ? 1 : -1);
-      }
-      if (name == "step_factor" && (!q.literal() || q.number > largest_overlap + 1e-9)) return 0;
-      const auto said = values.find(row->q);
-      if (said != values.end() && !ir::equal(said->second, q)) return 0;
-      values[row->q] = std::move(q);
-    }
-    if (needed != 0) return 0;
-    if (find_row(cycle, "sense") != nullptr) values.emplace(351, Value(1));
-    return outside ? 267 : cycle.number;
+    auto own = values;
+    const int number = mill_text(cycle, c, own);
+    if (number == 0) continue;
+    values = std::move(own);
+    return number;
   }
   return 0;
 }

@@ -155,7 +155,8 @@ bool BlockMachine::run_milling() {
     }
   }
   using ir::cycles::MillKind;
-  const bool pocket = cycle_.mill.shape->kind == MillKind::rectangle || cycle_.mill.shape->kind == MillKind::circle;
+  const MillKind shape = cycle_.mill.shape->kind;
+  const bool pocket = shape == MillKind::rectangle || shape == MillKind::circle || shape == MillKind::slot;
   if (cycle_runs_ != nullptr && pocket) keep_place(first, "pocket", cycle_.hole->surface, context.tool_radius);
   return true;
 }

@@ -214,10 +214,11 @@ bool CyclePass::put_similar_pocket(const HoleCycle& hole, Statement& s, Body& pi
   if (!form && asked && !none.empty())
     context_.diagnostics.note("TRN-416", s.line.span, "the target's own cycle would not leave the same part: " + none);
   if (!form) return false;
-  context_.diagnostics.warning(
-      "TRN-415", s.line.span,
-      "the target's own cycle takes the place of this one: the same pocket by other passes: " + form->differs,
-      "check the tool on the target, and the way it takes");
+  context_.diagnostics.warning("TRN-415", s.line.span,
+                               "the target's own cycle takes the place of this one: the same " +
+                                   std::string(hole.mill.shape.starts_with("slot.") ? "slot" : "pocket") +
+                                   " by other passes: " + form->differs,
+                               "check the tool on the target, and the way it takes");
   position_rapid(b, context_);
   active_->height = form->end_height;
   run_at_the_point(b, facts_.before(s), form->blocks);

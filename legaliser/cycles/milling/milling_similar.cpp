@@ -4,6 +4,7 @@
 
 #include "legaliser/cycles/milling/milling_moves.h"
 #include "legaliser/cycles/milling/similar_pocket.h"
+#include "legaliser/cycles/milling/single_pockets.h"
 #include "legaliser/edit/blocks.h"
 
 namespace cnctrans::ir::passes {
@@ -51,12 +52,13 @@ std::optional<MillCycles::Similar> MillCycles::similar(const HoleCycle& cycle, c
   const auto asked = context_.options.cycles;
   if (asked != CycleWriting::native && !(last_resort && asked == CycleWriting::exact)) return std::nullopt;
   const auto& native = context_.target.native_cycle;
-  const bool pocket = cycle.mill.shape.starts_with("pocket.");
   const auto units = setting_in<Units>(b, facts, Setting::units);
   const auto distance = setting_in<Distance>(b, facts, Setting::distance);
   const auto plane = setting_in<Plane>(b, facts, Setting::plane);
   const auto it = sites_.find(s.id);
-  if (!native || !pocket || it == sites_.end()) return std::nullopt;
+  if (!native || it == sites_.end()) return std::nullopt;
+  const auto single = single_pockets(cycle, why);
+  if (!single) return std::nullopt;
   if (!units || !plane || distance != Distance::absolute)
     return *why = "plane, units or absolute and incremental are not the same there", std::nullopt;
   const auto w = cycle_axis(cycle, b, facts);
@@ -64,14 +66,13 @@ std::optional<MillCycles::Similar> MillCycles::similar(const HoleCycle& cycle, c
   if (w != axes.w ||
       (*plane != Plane::xy && setting_in<DiameterMode>(b, facts, Setting::diameter) != DiameterMode::radius))
     return *why = "its plane, or diameters in it, are not those of the target's cycle", std::nullopt;
+  if (context_.target.cycle_each_call && w != axis::z) return *why = "the target's cycles go along Z", std::nullopt;
   if (setting_in<CompSide>(b, facts, Setting::comp) != CompSide::off)
     return *why = "radius compensation is on, or may be", std::nullopt;
   const double unit = *units == Units::inch ? 25.4 : 1;
   PocketSource source;
   std::optional<double> initial;
   if (defined_at) initial = *defined_at / unit;
-  source.cycle = with_absolute_levels(cycle, b, facts, initial);
-  source.cycle.axis = axis::none;
   source.u = place_word(b, facts, axes.u);
   source.v = place_word(b, facts, axes.v);
   const FeedBefore feed = feeds_.at(s, b, facts);
@@ -91,42 +92,51 @@ std::optional<MillCycles::Similar> MillCycles::similar(const HoleCycle& cycle, c
   source.sense = sense;
   source.clearance = 1 / unit;
   source.mirrors = mirrors_;
-  auto form = similar_pocket(source, native, why);
-  if (!form) return std::nullopt;
   Similar out;
   LineInfo like;
   like.span = s.line.span;
   like.skip_mask = s.line.skip_mask;
-  const auto retract = form->retract.literal() ? std::optional(form->retract.number * unit) : std::nullopt;
   // The writers know heights by the words of the text only.
-  const auto said = height_mm(b, facts, axes.w);
-  const bool rises = !retract || !said || std::fabs(*retract - *said) > 1e-9;
-  Block call;
-  if (form->u && form->v) {
-    Statement to = rapid_to(like, {{axes.u, *form->u}, {axes.v, *form->v}});
-    // Controls that go to the place of a cycle in rapid take it into the block of the cycle.
-    const bool in_one = !context_.target.retract_plane_switch;
-    if (!rises && in_one && context_.target_machine.policies.cycle_positioning == machine::CyclePositioning::rapid) {
-      call = std::move(std::get<Block>(to.node));
-      by_itself(call);
-    } else {
-      out.blocks.push_back(std::move(to));
+  auto height = height_mm(b, facts, axes.w);
+  std::optional<Value> other_feed;
+  for (const auto& one : single->pockets) {
+    source.cycle = with_absolute_levels(one, b, facts, initial);
+    source.cycle.axis = axis::none;
+    auto form = similar_pocket(source, native, why);
+    if (!form) return std::nullopt;
+    const auto retract = form->retract.literal() ? std::optional(form->retract.number * unit) : std::nullopt;
+    // To the retract plane first, as the source does: the way across may be free at that height only.
+    if (!retract || !height || std::fabs(*retract - *height) > 1e-9)
+      out.blocks.push_back(rapid_to(like, {{axes.w, form->retract}}));
+    Block call;
+    if (form->u && form->v) {
+      source.u = form->u;
+      source.v = form->v;
+      Statement to = rapid_to(like, {{axes.u, *form->u}, {axes.v, *form->v}});
+      // Controls that go to the place of a cycle in rapid take it into the block of the cycle.
+      const bool in_one = !context_.target.retract_plane_switch;
+      if (in_one && context_.target_machine.policies.cycle_positioning == machine::CyclePositioning::rapid) {
+        call = std::move(std::get<Block>(to.node));
+        by_itself(call);
+      } else {
+        out.blocks.push_back(std::move(to));
+      }
     }
-  }
-  if (rises) out.blocks.push_back(rapid_to(like, {{axes.w, form->retract}}));
-  const bool other_feed = form->feed && !(source.feed && equal(*form->feed, *source.feed));
-  if (other_feed && !source.feed && !feed.none)
-    return *why = "the feed in force behind it is not known here", std::nullopt;
-  if (other_feed) call.actions.push_back(action(SetFeed{*form->feed, false}));
-  for (const auto& c : form->cycles) {
-    call.actions.push_back(
-        action(CycleDefine{std::make_shared<const Cycle>(Cycle{c}), false, true, CycleTrigger::plane_axis_word}));
-    out.blocks.push_back(made(like, std::move(call)));
-    call = Block{};
+    if (form->feed && !(source.feed && equal(*form->feed, *source.feed))) other_feed = form->feed;
+    if (other_feed && !source.feed && !feed.none)
+      return *why = "the feed in force behind it is not known here", std::nullopt;
+    if (other_feed) call.actions.push_back(action(SetFeed{*other_feed, false}));
+    for (const auto& c : form->cycles) {
+      call.actions.push_back(
+          action(CycleDefine{std::make_shared<const Cycle>(Cycle{c}), false, true, CycleTrigger::plane_axis_word}));
+      out.blocks.push_back(made(like, std::move(call)));
+      call = Block{};
+    }
+    height = out.end_height = retract;
+    out.differs = form->differs;
   }
   if (other_feed && source.feed) out.blocks.push_back(make_block(like, action(SetFeed{*source.feed, false})));
-  out.end_height = retract;
-  out.differs = form->differs;
+  if (single->end) out.blocks.push_back(rapid_to(like, {{axes.u, single->end->first}, {axes.v, single->end->second}}));
   end_.reset();
   return out;
 }

@@ -35,6 +35,8 @@ struct Pocket {
   Value infeed;
   bool equal_levels = true;
   std::optional<Value> step;
+  bool step_said = false;
+  std::optional<Value> finish_infeed;
   std::optional<Value> wall_left, floor_left;  ///< stand at the end
   std::optional<Value> wall_cut, floor_cut;    ///< left by roughing, and taken
   std::optional<Value> mill_feed, plunge_feed, finish_feed, finish_plunge_feed;
@@ -42,6 +44,12 @@ struct Pocket {
   std::string differs;
   Value surface, reference, bottom, retract;
   bool dives = false;  ///< goes into the depth in rapid
+
+  [[nodiscard]] bool round_ends() const {
+    if (circle || !corner) return false;
+    const auto l = known_number(length), w = known_number(width), r = known_number(*corner);
+    return l && w && r && *l > *w && std::fabs(2 * *r - *w) < 1e-9;
+  }
 };
 
 class Reader {
@@ -57,7 +65,7 @@ class Reader {
       if (!nothing(word(blank))) return fail("a part of the pocket is there already");
     }
     if (!nothing(word("finish_speed"))) return fail("the finishing has a speed of its own");
-    if (!nothing(word("finish_infeed"))) p_.differs += ", the wall is finished in one cut or level by level";
+    if (const auto each = word("finish_infeed"); !nothing(each)) p_.finish_infeed = unsigned_value(*each);
     p_.u = word("u");
     p_.v = word("v");
     if (!p_.u) p_.u = s_.u;
@@ -153,7 +161,12 @@ class Reader {
     if (const auto c = word("corner"); !nothing(c)) p_.corner = less(unsigned_value(*c), p_.wall_left);
     // No corner of the source is smaller than the tool.
     const auto corner = p_.corner ? known_number(*p_.corner) : std::nullopt;
-    if (corner && s_.radius && *corner <= *s_.radius + near) p_.corner.reset();
+    if (p_.round_ends()) {
+      const auto stock = p_.wall_cut ? known_number(*p_.wall_cut) : std::nullopt;
+      if (s_.radius && *corner - stock.value_or(0) < *s_.radius - near) return no("the tool is too large for it");
+    } else if (corner && s_.radius && *corner <= *s_.radius + near) {
+      p_.corner.reset();
+    }
     if (const auto a = word("angle")) {
       const auto n = known_number(*a);
       if (!n) return no("its angle is computed");
@@ -193,8 +206,9 @@ class Reader {
       p_.infeed = top && low && *top < *low ? subtract(p_.bottom, p_.surface) : subtract(p_.surface, p_.bottom);
     }
     if (const auto step = word("step"); !nothing(step)) p_.step = unsigned_value(*step);
-    if (p_.step || !s_.radius) return;
     const auto factor = word("step_factor");
+    p_.step_said = p_.step || factor;
+    if (p_.step || !s_.radius) return;
     const auto n = factor ? known_number(*factor) : std::optional(0.8);
     if (n && *n > 0) p_.step = Value(std::round(*n * 2 * *s_.radius * 1e6) / 1e6);
   }
@@ -295,7 +309,7 @@ class Teller {
   /// Whole sizes at the place of the tool, with a sense; the allowances are taken at last in the same call, and the
   /// step is a factor of the tool's diameter.
   std::optional<PocketForm> by_one_call() {
-    if (!start(false)) return std::nullopt;
+    if (!start(false, true)) return std::nullopt;
     const auto feed = p_.mill_feed ? p_.mill_feed : s_.feed;
     const auto plunge = p_.plunge_feed ? p_.plunge_feed : feed;
     if (!feed) return why = "the feed in force is not known here", std::nullopt;
@@ -304,20 +318,11 @@ class Teller {
     } else {
       put("length", p_.length);
       put("width", p_.width);
-      if (p_.corner) put("corner", *p_.corner);
+      if (p_.corner) put("corner", slot() ? scale(p_.width, 0.5) : *p_.corner);
       if (p_.angle != 0) put("angle", Value(p_.angle));
     }
     put("infeed", p_.infeed);
-    double factor = 0.5;
-    constexpr double widest = 1.4;  // of the radius: beyond it the source leaves material where its rounds turn
-    const auto step = p_.step ? known_number(*p_.step) : std::nullopt;
-    if (step && s_.radius && *step > widest * *s_.radius)
-      return why = "the step in the plane is wider than the target's cycle makes it", std::nullopt;
-    if (step && s_.radius && *step > 0)
-      factor = *step / (2 * *s_.radius);
-    else
-      out_.differs += ", the step in the plane is the radius of the tool";
-    put("step_factor", Value(factor));
+    if (!slot() && !put_step()) return std::nullopt;
     const bool finishes = !nothing(p_.floor_cut) || !nothing(p_.wall_cut);
     if (!nothing(p_.wall_cut)) put("wall_stock", *p_.wall_cut);
     if (!nothing(p_.floor_cut)) put("floor_stock", *p_.floor_cut);
@@ -326,6 +331,7 @@ class Teller {
     put("mill_feed", *feed);
     put("plunge_feed", *plunge);
     if (finishes && p_.finish_feed) put("finish_feed", *p_.finish_feed);
+    if (finishes && p_.finish_infeed) put("finish_infeed", *p_.finish_infeed);
     c_.surface = absolute(p_.surface);
     c_.reference = absolute(p_.reference);
     return done();
@@ -389,12 +395,13 @@ class Teller {
     return l;
   }
   void put(const char* name, Value v) { c_.mill.words.emplace_back(name, without_text(std::move(v))); }
-  bool start(bool own_place) {
+  bool start(bool own_place, bool finish_levels = false) {
     c_ = HoleCycle{};
     c_.kind = HoleKind::mill;
     c_.mill.shape = p_.circle ? "pocket.circle" : "pocket.rect";
     out_ = PocketForm{};
     out_.differs = "levels, rounds and the ways between them are those of the target's cycle" + p_.differs;
+    if (p_.finish_infeed && !finish_levels) out_.differs += ", the wall is finished in one cut or level by level";
     if (p_.dives && !own_place) out_.differs += ", it goes into the depth at feed (in rapid in the source)";
     if (!own_place && (!p_.u || !p_.v)) return true;
     if (own_place) return true;
@@ -406,6 +413,22 @@ class Teller {
     out_.v = p_.v;
     return true;
   }
+  /// The source leaves the step in the plane to its cycle.
+  [[nodiscard]] bool slot() const { return p_.round_ends() && !p_.step_said; }
+  /// As a factor of the tool's diameter.
+  bool put_step() {
+    double factor = 0.5;
+    constexpr double widest = 1.4;  // of the radius: beyond it the source leaves material where its rounds turn
+    const auto step = p_.step ? known_number(*p_.step) : std::nullopt;
+    if (step && s_.radius && *step > widest * *s_.radius)
+      return why = "the step in the plane is wider than the target's cycle makes it", false;
+    if (step && s_.radius && *step > 0)
+      factor = *step / (2 * *s_.radius);
+    else
+      out_.differs += ", the step in the plane is the radius of the tool";
+    put("step_factor", Value(factor));
+    return true;
+  }
   [[nodiscard]] bool turned() const { return std::lround(p_.angle / 90) % 2 != 0; }
   bool square() {
     if (p_.circle || std::fabs(std::remainder(p_.angle, 90)) < 1e-9) return true;
@@ -415,6 +438,7 @@ class Teller {
   bool corners_of_the_tool() {
     if (p_.circle || !p_.corner) return true;
     const auto corner = known_number(*p_.corner);
+    if (slot() && !s_.radius) return why = "the ends of the slot would get the radius of the tool", false;
     if (!s_.radius || !corner) {
       out_.differs += ", the corners get the radius of the tool" +
                       (corner ? ": the same part only with a tool of radius " + shortest(*corner) : std::string());
