@@ -102,13 +102,14 @@ class ModalCalls {
     if (runs || pattern) return some_written_out_ || behind || (other && goes_at_a_feed(pattern));
     return runs_modal_call(b, facts_.before(s), words_run(context_.target_machine)) && context_.target.modal_call;
   }
-  /// A routine that begins or ends modal calls itself may be called while another one is in force on the target.
-  bool brought_by_caller(const Statement& s) const {
+  /// A caller of this routine, or another way than that of the text (a loop, a repeat), may bring a modal subprogram.
+  bool brought_along(const Statement& s) const {
     const auto* state = in_force_.before(s);
     if (!context_.target.modal_call || state == nullptr || *state == 0 || from_ != 0) return false;
-    const auto begun = defined_.find(*state);
-    if (begun == defined_.end() || never_modal(begun->second.call)) return false;
-    return !is_own(begun->second.call);
+    return std::any_of(defined_.begin(), defined_.end(), [&](const auto& d) {
+      const bool this_one = *state == d.first || *state == ModalCallInForce::several;
+      return this_one && !never_modal(d.second.call) && !is_own(d.second.call);
+    });
   }
   /// This routine is the subprogram of the modal call, or is called by it: it runs without it.
   bool is_own(const CallRoutine& call) const {
@@ -141,9 +142,8 @@ class ModalCalls {
     if (moves_inside && !active_ && some_written_out_ && !surely_on(s)) return depends_on_way(std::move(s), out);
     auto* b = std::get_if<Block>(&s.node);
     if (b != nullptr && by_another_way(s, *b)) return depends_on_way(std::move(s), out);
-    const bool called_under = !active_ && !on_target_ && brought_by_caller(s);
     if (b != nullptr && pattern_in(*b) == nullptr &&
-        ((on_target_ && cycle_beside(*b, true)) || (called_under && action_in<CycleDefine>(*b) != nullptr) ||
+        ((on_target_ ? cycle_beside(*b, true) : action_in<CycleDefine>(*b) != nullptr && brought_along(s)) ||
          ends_call_too(s, *b)))
       return refused(std::move(s), out, "TRN-561",
                      "a canned cycle beside a modal subprogram: the target has one of them at a time",
@@ -454,7 +454,7 @@ class ModalCalls {
   /// The end of a cycle, where the target's word for it ends the modal subprogram of some way as well.
   bool ends_call_too(const Statement& s, const Block& b) const {
     const Facts& facts = facts_.before(s);
-    return calls_are_cycles_ && action_in<CycleCancel>(b) != nullptr && (on_target_ || brought_by_caller(s)) &&
+    return calls_are_cycles_ && action_in<CycleCancel>(b) != nullptr && (on_target_ || brought_along(s)) &&
            (facts.cycle_active || !facts.cycle_active_known);
   }
   bool never_modal(const CallRoutine& call) const {
