@@ -317,15 +317,21 @@ bool ArcPass::closes(const Arc& arc) const {
 
 /// By its angle an arc ends at the radius with which it begins. Where the source's end lies beside that circle by what
 /// controls allow, the centre moves to the nearest place with the same distance from both: the end stays where it is.
+/// Not where the path would move further than the end lies beside it: a circle that nearly closes moves with its
+/// centre.
 void ArcPass::end_on_circle(Arc& arc) {
   const auto c = center_point(arc);
-  if (!c || !known(arc.end)) return;
-  const Vec from = point(arc.start), chord = point(arc.end) - from;
+  if (!c || !known(arc.end) || !arc.ccw) return;
+  const Vec from = point(arc.start), to = point(arc.end), chord = to - from;
   const double length = geometry::length(chord);
+  const double beside = std::fabs(geometry::length(*c - from) - geometry::length(*c - to));
   constexpr double fine = 1e-4;
-  if (length < fine || std::fabs(geometry::length(*c - from) - geometry::length(*c - point(arc.end))) < fine) return;
+  if (length < fine || beside < fine) return;
   const double along = geometry::dot(*c - from, chord) / length - length / 2;
-  set_center(arc, *c - (along / length) * chord);
+  const Vec moved = *c - (along / length) * chord;
+  const bool turns = arc.b.motion.extra && arc.b.motion.extra->has_turns;
+  const double by = turns ? geometry::length(moved - *c) : geometry::apart({from, to, *c}, {from, to, moved}, *arc.ccw);
+  if (by <= beside * (1 + fine)) set_center(arc, moved);
 }
 
 void ArcPass::helix_angle(Arc& arc) {
