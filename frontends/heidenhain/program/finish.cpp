@@ -6,7 +6,6 @@
 #include "frontends/heidenhain/program/cycle_calls.h"
 #include "frontends/heidenhain/state/datum.h"
 #include "frontends/heidenhain/ways/from_pole.h"
-#include "ir/edit/rewrite.h"
 
 namespace cnctrans::frontends::heidenhain {
 
@@ -50,7 +49,7 @@ class Finisher {
     if (!a.reached || !(item.polar || item.by_pole || item.other_pole >= 0)) return;
     const Pole* pole = a.pole < 0 ? nullptr : &flat_.poles[static_cast<std::size_t>(a.pole)];
     const bool other = pole != nullptr && pole->other;
-    if (item.other_pole < 0 ? !other : a.pole == item.other_pole && (!a.written || holds_still(i, *pole))) return;
+    if (item.other_pole < 0 ? !other : a.pole == item.other_pole && !a.written) return;
     lowering_.report().start(item.statement.line.span);
     lowering_.report().keep("HEI-008", {},
                             "whether CC lies in the plane of the tool here, and where, depends on the way",
@@ -58,19 +57,6 @@ class Finisher {
     keep_text(item, "motion.geometry", "LP");
     item.polar = false;
   }
-  /// The variables of the pole are not written behind its CC.
-  [[nodiscard]] bool holds_still(std::size_t line, const Pole& pole) const {
-    const auto cc = std::find_if(flat_.items.begin(), flat_.items.end(), [&](const Item& i) {
-      return i.kind == ItemKind::pole && i.index == flat_.items[line].other_pole;
-    });
-    return std::none_of(cc, flat_.items.end(), [&](const Item& i) {
-      return std::any_of(i.writes.begin(), i.writes.end(), [&](const ir::VarRef& v) {
-        return std::any_of(pole.words.begin(), pole.words.end(),
-                           [&](const auto& w) { return w.value.expr && ir::passes::reads(w.value.expr, v); });
-      });
-    });
-  }
-
   // --- arcs ----------------------------------------------------------------------------------------------------------
 
   void centre(std::size_t i) {

@@ -178,7 +178,7 @@ struct Arrival {
   int cycle = none;                    ///< index of the definition in force
   int pole = none;                     ///< of the CC in force
   bool moved = false;                  ///< since that CC
-  bool written = false;                ///< a variable, since that CC
+  bool written = false;                ///< a variable of that CC, since then
   int from = none;                     ///< the item that says where the tool stands seen from that CC
   bool changed = false;                ///< a variable, since that item
   int modal = 0;                       ///< M89: 0 off, 1 on, several

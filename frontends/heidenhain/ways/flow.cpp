@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "dialects/heidenhain/variables.h"
-
 #include "frontends/heidenhain/ways/from_pole.h"
 #include "frontends/heidenhain/ways/way.h"
 #include "ir/edit/rewrite.h"
@@ -47,6 +46,13 @@ bool narrow(Arrival& a, const Arrival& b) {
     if (other == b.texts.end() || other->second != text) text.reset();
   }
   return !(a == before);
+}
+
+bool writes_pole(const Item& i, const Pole& pole) {
+  return std::any_of(i.writes.begin(), i.writes.end(), [&pole](const ir::VarRef& v) {
+    return std::any_of(pole.words.begin(), pole.words.end(),
+                       [&v](const auto& w) { return w.value.expr && ir::passes::reads(w.value.expr, v); });
+  });
 }
 
 bool is_text(const ir::Assign::Item& item) {
@@ -185,7 +191,10 @@ Arrival Flow::after(int item, Arrival a) const {
     a.selected = i.selects;
     a.selected_outside = false;
   }
-  if (!i.writes.empty()) a.written = a.rewritten = true;
+  if (!i.writes.empty()) {
+    a.rewritten = true;
+    a.written = a.written || a.pole < 0 || writes_pole(i, flat_.poles[static_cast<std::size_t>(a.pole)]);
+  }
   if (sets_text(i)) follow_texts(i, a);
   if (i.call == CycleCall::modal) {
     a.modal = 1;
