@@ -149,7 +149,7 @@ class KnownLiterals {
 class KnownTexts {
  public:
   KnownTexts(Program& program, const LegaliseContext& context)
-      : program_(program), domain_(program, context), states_(program, domain_) {}
+      : program_(program), context_(context), domain_(program, context), states_(program, domain_) {}
 
   void run() {
     std::vector<std::set<std::string>> left;  // by routine
@@ -229,6 +229,15 @@ class KnownTexts {
     s.node = Block{};
     settle(s);
   }
+  /// What is kept beyond the program may be read by another one.
+  void tell_left_out(const Statement& s, const std::string& name) {
+    if (!told_.insert(name).second) return;
+    context_.diagnostics.warning("TRN-204", s.line.span,
+                                 "the target has no texts: " + name +
+                                     " is not written any more. Nothing in this program reads it, another one on the "
+                                     "control may (said once a variable)",
+                                 "look for programs that read it");
+  }
   /// Definitions and assignments of variables that nothing reads any more.
   void remove(Body& body) {
     for (auto& s : body) {
@@ -240,8 +249,11 @@ class KnownTexts {
         std::erase_if(a->items, [&](const Assign::Item& i) {
           if (i.to_system || !domain_.holds_no_number(i.target)) return false;
           const bool own = program_.spaces[i.target.space].scope == Scope::routine;
-          return (own ? left_.count(i.target.name) == 0 : closed_ && left_anywhere_.count(i.target.name) == 0) &&
-                 !domain_.name_of(i.target, s).empty() && is_literal(i.value);
+          const bool unread =
+              own ? left_.count(i.target.name) == 0 : closed_ && left_anywhere_.count(i.target.name) == 0;
+          if (!unread || domain_.name_of(i.target, s).empty() || !is_literal(i.value)) return false;
+          if (!own) tell_left_out(s, i.target.name);
+          return true;
         });
         if (a->items.empty()) leave(s);
       }
@@ -249,10 +261,12 @@ class KnownTexts {
   }
 
   Program& program_;
+  const LegaliseContext& context_;
   const KnownLiterals domain_;
   const FlowStates<KnownLiterals> states_;
   std::set<std::string> left_, left_anywhere_;  ///< variables that are still read: in the routine, in the program
-  bool closed_ = true;                          ///< all that it calls is in the program
+  std::set<std::string> told_;
+  bool closed_ = true;  ///< all that it calls is in the program
 };
 
 /// A text or an axis as a value, other than the words of a message.
