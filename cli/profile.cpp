@@ -77,7 +77,7 @@ int check_profile(const Arguments& a, const machine::Profile& p) {
 /// Every option with what it means, what it takes, and what it is on this machine.
 int options_of(const machine::Profile& p) {
   for (const auto& o : dialects::options().rows()) {
-    const auto set = p.options.find(std::string(o.name));
+    const auto set = p.options.find(o.name);
     const std::string value = set == p.options.end() ? std::string(o.fallback) : set->second;
     write_all(stdout,
               fmt::format("{} = {}{}\n    {}\n    takes: {}\n", o.name, value.empty() ? "(empty)" : value,

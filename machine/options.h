@@ -28,7 +28,13 @@ struct OptionRow {
 };
 using OptionSpec = OptionRow<Policies>;
 
-/// `put` of a row for a field: a text, a number, or an enum or bool whose values stand in the order of the row.
+template <auto Field>
+struct FieldOf;
+template <class Fields, class T, T Fields::*Field>
+struct FieldOf<Field> {
+  using Type = Fields;
+};
+/// Puts a text, a number, or an enum or bool whose values stand in the order of the row.
 template <auto Field, class Fields>
 void put_option(Fields& out, std::string_view value, std::size_t at) {
   using T = std::remove_reference_t<decltype(out.*Field)>;
@@ -39,6 +45,14 @@ void put_option(Fields& out, std::string_view value, std::size_t at) {
   } else {
     out.*Field = static_cast<T>(at);
   }
+}
+
+/// The row of a field.
+template <auto Field>
+constexpr auto option(std::string_view name, std::string_view values, std::string_view fallback,
+                      std::string_view meaning) {
+  using Fields = typename FieldOf<Field>::Type;
+  return OptionRow<Fields>{name, values, fallback, &put_option<Field, Fields>, meaning};
 }
 
 /// Which of the values, parted by '|', it is.
@@ -58,7 +72,7 @@ template <class Fields, std::size_t N>
 Fields read_options(const Profile& profile, const std::array<OptionRow<Fields>, N>& rows) {
   Fields out;
   for (const auto& row : rows) {
-    const auto it = profile.options.find(std::string(row.name));
+    const auto it = profile.options.find(row.name);
     if (it != profile.options.end()) row.put(out, it->second, value_number(it->second, row.values).value_or(0));
   }
   return out;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -85,7 +86,7 @@ struct Profile {
   /// Values of machine data that only this machine knows, by the name a program reads them under ("FRO", "PLCM12").
   std::map<std::string, double> data;
   /// Options as the profile writes them ("frame.preset" = "own"); OptionTable::set keeps `policies` with them.
-  std::map<std::string, std::string> options;
+  std::map<std::string, std::string, std::less<>> options;
   Policies policies;
   double max_rapid = 10000;     ///< mm/min, for reports only
   double arc_tolerance = 0.02;  ///< mm: |r0 - r1| of an arc by centre

@@ -16,7 +16,8 @@ class NumBackend final : public Backend {
   [[nodiscard]] std::string_view dialect() const override { return "num"; }
   [[nodiscard]] const ir::Capabilities& capabilities() const override { return num::capabilities(false, true, true); }
   [[nodiscard]] const ir::Capabilities& capabilities_for(const machine::Profile& target) const override {
-    return num::capabilities(target.kind == machine::Kind::lathe, later_family(target), structured(target));
+    const auto options = dialects::num::options_of(target);
+    return num::capabilities(target.kind == machine::Kind::lathe, later_family(options), structured(options));
   }
   std::vector<OutputFile> write(const ir::Program& program, const WriteOptions& options,
                                 Diagnostics& diagnostics) const override {

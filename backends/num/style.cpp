@@ -204,16 +204,12 @@ const ir::Capabilities& capabilities(bool lathe, bool later, bool structured) {
   return all[(lathe ? 3U : 0U) + (later ? 1U : 0U) + (later && structured ? 1U : 0U)];
 }
 
-bool structured(const machine::Profile& profile) {
-  return later_family(profile) && facts::options_of(profile).structured;
+bool structured(const facts::Options& options) {
+  return later_family(options) && options.structured;
 }
 
-bool centre_from_start(const machine::Profile& profile) {
-  return facts::options_of(profile).centre == facts::ArcCentre::incremental;
-}
-
-bool later_family(const machine::Profile& profile) {
-  return facts::options_of(profile).family != facts::Family::n7xx;
+bool later_family(const facts::Options& options) {
+  return options.family != facts::Family::n7xx;
 }
 
 bool native_hole(const ir::HoleCycle& c) {

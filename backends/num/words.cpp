@@ -272,7 +272,7 @@ bool Writer::switched(const ir::Motion& m, const ir::CoordWord& w) {
 void Writer::center(const ir::Motion& /*m*/, const ir::CenterWord& w) {
   if (inverse_time_arc(w.pos)) return;
   if (w.axis > ir::axis::z) return refuse(no_word, w.pos, "the centre of an arc on this axis has no counterpart here");
-  const bool from_start = centre_from_start(profile());
+  const bool from_start = own_options_.centre == facts::ArcCentre::incremental;
   const auto mode = setting(ir::Setting::distance);
   bool fits = same_dialect() && w.pos.column != 0;
   switch (w.mode) {
@@ -373,7 +373,7 @@ void Writer::hole_levels(const ir::Action& a, const ir::HoleCycle& c) {
         "the hole is the same; check the move to the retract plane");
   }
   if (reference_at_call || same) return;
-  if (!later_family(profile()))
+  if (!later_family(own_options_))
     return refuse(no_cycle, a.pos, "this control has no separate plane where the feed starts (EH)",
                   "use --cycles=explode");
   const bool up = own_options_.peck_withdraw == facts::PeckWithdraw::er;

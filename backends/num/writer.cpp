@@ -237,7 +237,7 @@ void Writer::assign(const ir::Assign& a) {
 }
 
 void Writer::declare(const ir::Declare& d) {
-  if (!same_dialect() && !structured(profile()))
+  if (!same_dialect() && !structured(own_options_))
     return refuse(no_statement, {}, "named variables are not declared here");
   for (const auto& item : d.items) {
     std::string text = item.name.empty() || item.name.front() == '[' ? item.name : '[' + item.name + ']';
@@ -346,7 +346,7 @@ void Writer::end_program(const ir::End& e) {
 }
 
 bool Writer::structured_allowed() {
-  if (later_family(profile())) return true;
+  if (later_family(own_options_)) return true;
   refuse(no_statement, {}, "structured statements are not written here");
   return false;
 }

@@ -59,6 +59,7 @@ std::string legal_name(std::string_view stem) {
 Writer::Writer(const ir::Program& source, const WriteOptions& write_options, Diagnostics& sink)
     : ProgramWriter(source, write_options, sinumerik::style, sink),
       expressions_(program(), source.dialect == sinumerik::style.dialect),
+      geometry_(profile()),
       uses_css_(uses_css(program())),
       chooses_master_(chooses_master(program())) {}
 

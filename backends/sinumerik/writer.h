@@ -23,9 +23,7 @@ class Writer final : public ProgramWriter {
   Writer(const ir::Program& program, const WriteOptions& options, Diagnostics& diagnostics);
 
  protected:
-  [[nodiscard]] cnctrans::sinumerik::GeometryAxes geometry() const {
-    return cnctrans::sinumerik::GeometryAxes(profile());
-  }
+  [[nodiscard]] const cnctrans::sinumerik::GeometryAxes& geometry() const { return geometry_; }
   // frame (writer.cpp)
   void write_program() override;
   ExpressionPrinter& expressions() override { return expressions_; }
@@ -129,6 +127,7 @@ class Writer final : public ProgramWriter {
   bool stands_already(WordPos pos);
 
   Expressions expressions_;
+  const cnctrans::sinumerik::GeometryAxes geometry_;
   Span written_line_;  ///< where the words stand that were last written as the source has them
   std::uint32_t written_column_ = 0;
   bool list_written_ = false;  ///< the statement before was a list of values in the words of the source

@@ -28,30 +28,27 @@ struct Options {
 };
 
 inline constexpr std::array option_rows{
-    machine::OptionRow<Options>{"fagor.mcall_repeat", "sub_only|move_and_sub", "move_and_sub",
-                                &machine::put_option<&Options::mcall_repeat, Options>,
-                                "what a block repeat does under MCALL"},
-    machine::OptionRow<Options>{"fagor.g92_mirror", "untouched|through", "untouched",
-                                &machine::put_option<&Options::g92_mirror, Options>,
-                                "G92 of a mirrored axis: the origin is set as without the mirror image, or so that the "
-                                "axis stands at the value in the mirrored coordinates"},
-    machine::OptionRow<Options>{"fagor.plane_angles", "trace|axis", "trace",
-                                &machine::put_option<&Options::plane_angles, Options>,
-                                "angles I J of G49: between an axis and the line in which the plane meets the plane of "
-                                "that axis and Z, or between the axis and the plane itself"},
-    machine::OptionRow<Options>{
-        "fagor.plane_tilt", "rises|falls", "rises", &machine::put_option<&Options::plane_tilt, Options>,
-        "a positive angle I or J of G49: the plane rises, or falls, toward the plus side of the axis"},
+    machine::option<&Options::mcall_repeat>("fagor.mcall_repeat", "sub_only|move_and_sub", "move_and_sub",
+                                            "what a block repeat does under MCALL"),
+    machine::option<&Options::g92_mirror>(
+        "fagor.g92_mirror", "untouched|through", "untouched",
+        "G92 of a mirrored axis: the origin is set as without the mirror image, or so that the "
+        "axis stands at the value in the mirrored coordinates"),
+    machine::option<&Options::plane_angles>(
+        "fagor.plane_angles", "trace|axis", "trace",
+        "angles I J of G49: between an axis and the line in which the plane meets the plane of "
+        "that axis and Z, or between the axis and the plane itself"),
+    machine::option<&Options::plane_tilt>(
+        "fagor.plane_tilt", "rises|falls", "rises",
+        "a positive angle I or J of G49: the plane rises, or falls, toward the plus side of the axis"),
 };
 /// Those that set what every control has.
 inline constexpr std::array shared_option_rows{
-    machine::OptionSpec{"fagor.tool_change", "turret|m6", "m6",
-                        &machine::put_option<&machine::Policies::tool_change, machine::Policies>,
-                        "T changes at once, or selects for M06"},
-    machine::OptionSpec{
+    machine::option<&machine::Policies::tool_change>("fagor.tool_change", "turret|m6", "m6",
+                                                     "T changes at once, or selects for M06"),
+    machine::option<&machine::Policies::rotary_rollover>(
         "fagor.rotary_rollover", "no|yes", "no",
-        &machine::put_option<&machine::Policies::rotary_rollover, machine::Policies>,
-        "absolute words of rotary axes: the sign is the direction and the value the target, or a plain coordinate"},
+        "absolute words of rotary axes: the sign is the direction and the value the target, or a plain coordinate"),
 };
 
 inline Options options_of(const machine::Profile& profile) {
