@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/noise.h"
 #include "base/tiny.h"
 #include "ir/cycles/words.h"
 
@@ -88,8 +89,7 @@ class Builder {
     const auto it = numbers_.find(name);
     return it == numbers_.end() ? otherwise : it->second;
   }
-  /// Without the noise that sines leave in the last places.
-  static double clean(double x) { return std::round(x * 1e10) / 1e10 + 0.0; }
+  static double clean(double x) { return without_noise(x, 1e10); }
   void add(double u, double v) {
     PatternPoint p;
     p.u = clean(u);

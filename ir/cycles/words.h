@@ -1,18 +1,23 @@
-// The words of a named cycle, by name.
+// The words of a cycle, by name.
 #pragma once
 
 #include <algorithm>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "ir/cycle.h"
 
 namespace cnctrans::ir::cycles {
 
 /// Null: not given.
+inline const Value* find_word(const std::vector<std::pair<std::string, Value>>& words, std::string_view name) {
+  const auto it = std::find_if(words.begin(), words.end(), [name](const auto& w) { return w.first == name; });
+  return it == words.end() ? nullptr : &it->second;
+}
 inline const Value* find_word(const NamedCycle& cycle, std::string_view name) {
-  const auto it =
-      std::find_if(cycle.words.begin(), cycle.words.end(), [name](const auto& w) { return w.first == name; });
-  return it == cycle.words.end() ? nullptr : &it->second;
+  return find_word(cycle.words, name);
 }
 /// The text of a word that holds one; null: it is none.
 inline const std::string* text_in(const Value& v) {

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/noise.h"
 #include "ir/geometry/geometry.h"
 #include "ir/nesting.h"
 
 namespace cnctrans::ir::passes {
 
 double clean(double x) {
-  return std::round(x * 1e9) / 1e9 + 0.0;
+  return without_noise(x);
 }
 
 Point2 around(Point2 pole, double r, double q) {

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/noise.h"
 #include "frontends/heidenhain/cycles/builder.h"
 #include "ir/cycles/milling/milling.h"
 
@@ -223,8 +224,8 @@ bool CycleBuilder::on_cylinder() {
     return refuse("how far a tool that is narrower than the slot (Q20) stands aside is not described");
   MoveList steps;
   const auto to = [&](double around, double along) {
-    PlaneMove m{Value(std::round(around / unit / radius * 180 / std::numbers::pi * 1e10) / 1e10 + 0.0),
-                Value(std::round(along / unit * 1e10) / 1e10 + 0.0),
+    PlaneMove m{Value(without_noise(around / unit / radius * 180 / std::numbers::pi, 1e10)),
+                Value(without_noise(along / unit, 1e10)),
                 true,
                 {},
                 {},

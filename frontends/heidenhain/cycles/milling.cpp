@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/noise.h"
 #include "dialects/heidenhain/limits.h"
 #include "frontends/heidenhain/cycles/builder.h"
 #include "ir/cycles/milling/milling.h"
@@ -15,15 +16,6 @@ using facts::Role;
 using ir::HoleKind;
 using ir::LevelBase;
 using ir::Value;
-
-namespace {
-
-double without_dust(double x) {
-  constexpr double places = 1e10;
-  return std::round(x * places) / places + 0.0;
-}
-
-}  // namespace
 
 bool CycleBuilder::mill() {
   hole_.kind = HoleKind::mill;
@@ -92,7 +84,7 @@ bool CycleBuilder::place() {
   }
   constexpr double degrees = std::numbers::pi / 180;
   const double c = std::cos(angle.number * degrees), s = std::sin(angle.number * degrees);
-  aside_ = {Value(without_dust(c * u - s * v)), Value(without_dust(s * u + c * v))};
+  aside_ = {Value(without_noise(c * u - s * v)), Value(without_noise(s * u + c * v))};
   return true;
 }
 
@@ -108,7 +100,7 @@ bool CycleBuilder::place_on_ring() {
   for (auto& [name, v] : hole_.mill.words) {
     if (name == "angle") v = Value(angle.number - (at.is(1) ? 1 : at.is(2) ? 0.5 : 0) * opening.number);
   }
-  aside_ = {Value(without_dust(-r * std::cos(a))), Value(without_dust(-r * std::sin(a)))};
+  aside_ = {Value(without_noise(-r * std::cos(a))), Value(without_noise(-r * std::sin(a)))};
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/noise.h"
 #include "dialects/heidenhain/limits.h"
 #include "frontends/heidenhain/cycles/build.h"
 
@@ -59,7 +60,7 @@ class MoveList {
  private:
   void along(Kind kind, ir::Value w, double f) {
     constexpr double nothing = 1e-9, places = 1e10;
-    if (w.literal()) w = ir::Value(std::round(w.number * places) / places + 0.0);
+    if (w.literal()) w = ir::Value(without_noise(w.number, places));
     if (at_ && (ir::equal(*at_, w) || (at_->literal() && w.literal() && std::abs(at_->number - w.number) < nothing)))
       return;
     at_ = w;

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/noise.h"
 #include "base/text.h"
 #include "dialects/heidenhain/limits.h"
 #include "frontends/heidenhain/cycles/build.h"
@@ -62,9 +63,8 @@ bool Lowering::figures(Pattern& pattern) {
 
 namespace {
 
-/// Without the noise that sines leave in the last places.
 double clean(double x) {
-  return std::round(x * 1e10) / 1e10 + 0.0;
+  return without_noise(x, 1e10);
 }
 
 /// Points of a grid or, `frame`, its outer ones.

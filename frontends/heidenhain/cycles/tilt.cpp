@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/noise.h"
 #include "base/text.h"
 #include "dialects/heidenhain/tilts.h"
 #include "frontends/heidenhain/state/lowering.h"
@@ -306,7 +307,7 @@ bool Lowering::plane(const syntax::Statement& s) {
     constexpr double places = 1e10;
     const auto column = [&m](std::size_t k) { return std::array<double, 3>{(*m)[0][k], (*m)[1][k], (*m)[2][k]}; };
     const ir::Turns a = ir::turns_of(column(0), column(1), column(2));
-    for (std::size_t i = 0; i < 3; ++i) angles[i] = ir::Value(std::round(a[i] * places) / places + 0.0);
+    for (std::size_t i = 0; i < 3; ++i) angles[i] = ir::Value(without_noise(a[i], places));
   }
   const bool by_axes = angles[0].is(0) || angles[1].is(0);
   if (turns && !by_axes) return refuse("TURN and MOVE position the rotary axes: to where is known to the machine only");

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/noise.h"
 #include "ir/value.h"
 
 namespace cnctrans::frontends::heidenhain {
@@ -20,7 +21,7 @@ class Term {
   /// Without the noise that roots and sines leave in the last places.
   [[nodiscard]] ir::Value value() const {
     constexpr double places = 1e10;
-    return literal() ? ir::Value(std::round(v_.number * places) / places + 0.0) : v_;
+    return literal() ? ir::Value(without_noise(v_.number, places)) : v_;
   }
 
   friend Term operator+(const Term& a, const Term& b) { return two(ir::BinaryOp::add, a, b, a.number() + b.number()); }

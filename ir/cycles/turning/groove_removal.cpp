@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "base/noise.h"
 #include "ir/cycles/contour.h"
 
 namespace cnctrans::ir::cycles::detail {
@@ -56,7 +57,7 @@ class GrooveRemover {
 
   [[nodiscard]] double on_line(double p) const {
     const double q = start_.q + (p - start_.p) * slope_.q / slope_.p;
-    return std::round(q * 1e9) / 1e9 + 0.0;  // without the last bits of sine and cosine
+    return without_noise(q);
   }
   /// The deepest place between the tool and the limit.
   [[nodiscard]] double floor() const {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/text.h"
+#include "ir/cycles/words.h"
 #include "ir/known_number.h"
 
 namespace cnctrans::ir::passes {
@@ -85,10 +86,8 @@ class Reader {
     return std::nullopt;
   }
   [[nodiscard]] std::optional<Value> word(std::string_view name) const {
-    for (const auto& [own, v] : s_.cycle.mill.words) {
-      if (own == name) return without_text(v);
-    }
-    return std::nullopt;
+    const Value* v = cycles::find_word(s_.cycle.mill.words, name);
+    return v == nullptr ? std::nullopt : std::optional(without_text(*v));
   }
   /// A level as a coordinate.
   [[nodiscard]] std::optional<Value> height(const Level& l) const {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/noise.h"
 #include "base/text.h"
 #include "ir/cycles/profile_blocks.h"
 #include "ir/known_number.h"
@@ -39,7 +40,7 @@ NamedCycle in_older_words(const NamedCycle& named, const ModalState& modes) {
   out.name = "thread.counted";
   for (const auto& [name, v] : *older) {
     const double by = cycles::factor_of(cycles::find_parameter(name)->quantity, turn_units(modes));
-    out.words.emplace_back(std::string(name), Value(std::round(v / by * 1e9) / 1e9 + 0.0));
+    out.words.emplace_back(std::string(name), Value(without_noise(v / by)));
   }
   return out;
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/noise.h"
 #include "base/text.h"
 #include "base/tiny.h"
 #include "legaliser/cycles/parts/cycle_computed.h"
@@ -64,7 +65,7 @@ class ThreadForms {
     const Value v = s_.fold(word(name, otherwise));
     return v.literal() ? std::optional(v.number) : constant_value(v.expr);
   }
-  static Value clean(const Value& v) { return v.literal() ? Value(std::round(v.number * 1e9) / 1e9 + 0.0) : v; }
+  static Value clean(const Value& v) { return v.literal() ? Value(without_noise(v.number)) : v; }
   static void put(SimilarForm& f, std::string_view name, const Value& v) {
     f.cycle.words.emplace_back(std::string(name), clean(v));
   }

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "base/noise.h"
 #include "base/tiny.h"
 #include "legaliser/cycles/parts/cycle_computed.h"
 
@@ -49,8 +50,7 @@ class Forms {
     }
     return Value(otherwise);
   }
-  /// Without noise of the arithmetic.
-  static Value clean(const Value& v) { return v.literal() ? Value(std::round(v.number * 1e9) / 1e9 + 0.0) : v; }
+  static Value clean(const Value& v) { return v.literal() ? Value(without_noise(v.number)) : v; }
   static void put(TurnForm& f, std::string_view name, const Value& v) {
     f.cycle.words.emplace_back(std::string(name), clean(v));
   }
