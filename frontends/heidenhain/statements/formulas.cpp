@@ -114,10 +114,11 @@ ir::ExprPtr Lowering::text_function(const Expr& e) {
   }
   if (e.text == facts::text_order_word) {
     const ir::ExprPtr a = word("SRC_"), b = word("SEA_");
-    report_.warn("HEI-034", e.pos,
-                 "STRCOMP is taken as 0 for equal texts, -1 where the first comes before the second, 1 behind it: which "
-                 "of the two is which the manuals at hand do not say",
-                 "compare the result with 0 alone, or try it on the control");
+    report_.warn(
+        "HEI-034", e.pos,
+        "STRCOMP is taken as 0 for equal texts, -1 where the first comes before the second, 1 behind it: which "
+        "of the two is which the manuals at hand do not say",
+        "compare the result with 0 alone, or try it on the control");
     if (a && b)
       return ir::at(
           ir::binary(ir::BinaryOp::subtract, ir::binary(ir::BinaryOp::gt, a, b), ir::binary(ir::BinaryOp::lt, a, b)),
