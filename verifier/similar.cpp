@@ -312,6 +312,7 @@ std::string similar_difference(const CyclePasses& source, const CyclePasses& tar
   std::string what = beside_the_moves(source, target);
   const bool turned = source.run->family == "stock" || source.run->family == "thread";
   if (what.empty()) what = part_difference(source, target, tolerances, max_length);
+  if (what.empty() && !turned) what = crossing_difference(source, target);
   return what.empty() ? way_difference(source, target, turned) : what;
 }
 

@@ -254,22 +254,10 @@ class Pockets {
     if (what.empty()) what = infeeds();
     if (what.empty() && begin(b_) < a_.surface() + t_.contour && begin(a_) > a_.surface() + t_.contour)
       what = "a rapid move of the translation's cycle comes down to the material";
-    if (what.empty() && across(b_) < across(a_) - t_.contour && across(a_) < std::numeric_limits<double>::infinity())
-      what = "the translation goes across to its cycle lower than the source does";
     return what;
   }
 
  private:
-  /// How low the tool goes in the plane before it cuts; infinite: it does not.
-  static double across(const Side& side) {
-    double low = std::numeric_limits<double>::infinity();
-    for (const auto& m : side.moves()) {
-      if (cuts(*m.event)) break;
-      const PocketPoint &from = m.points.front(), &to = m.points.back();
-      if (std::hypot(to.u - from.u, to.v - from.v) > 1e-6) low = std::min({low, from.w, to.w});
-    }
-    return low;
-  }
   /// The place that the move cuts; null: none of the source's.
   [[nodiscard]] const Extent* place_of(const PocketMove& m) const {
     const Extent box(m, 0);

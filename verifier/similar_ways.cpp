@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -70,7 +71,32 @@ struct Box {
   }
 };
 
+/// How low, along the axis of the cycle, the tool goes across it in rapid before the first cut; where it does not, how
+/// high it stands there.
+double crossing(const CyclePasses& side) {
+  const auto axes = ir::plane_axes(side.run->plane);
+  const auto height = [&](const Position& p) { return p.value[axes.w] * side.run->out; };
+  constexpr double none = std::numeric_limits<double>::infinity();
+  Position at = side.start;
+  double low = none;
+  for (const Event* e : side.events) {
+    if (!is_motion(e->kind)) continue;
+    if (e->kind != EventKind::rapid) break;
+    if (std::hypot(e->to.value[axes.u] - at.value[axes.u], e->to.value[axes.v] - at.value[axes.v]) > 1e-6)
+      low = std::min({low, height(at), height(e->to)});
+    at = e->to;
+  }
+  return low < none ? low : height(side.start);
+}
+
 }  // namespace
+
+std::string crossing_difference(const CyclePasses& source, const CyclePasses& target) {
+  constexpr double room = 0.004;  // mm
+  return crossing(target) < crossing(source) - room
+             ? "the translation goes across to its cycle lower than the source does"
+             : "";
+}
 
 std::string way_difference(const CyclePasses& source, const CyclePasses& target, bool turned) {
   constexpr double margin = 1;  // mm: the distances that cycles keep are not the same on all controls

@@ -316,5 +316,36 @@ TEST(SimilarThread, Faults) {
   EXPECT_FALSE(thread_difference(c).empty());
 }
 
+// --- taps: at (30, 20), from Z2 to Z-10, a thread of 1.25; the tool comes from (0, 0) at Z50
+// --------------------------
+
+/// `across`: how high the tool stands when it goes over to the hole.
+Side tap(double across) {
+  Side s;
+  const auto to = [&](EventKind kind, double x, double y, double z) -> Event& {
+    auto& e = s.add(kind, x, z);
+    e.to.known |= 1U << ir::axis::y;
+    e.to.value[ir::axis::y] = y;
+    if (kind == EventKind::thread) e.pitch = 1.25;
+    return e;
+  };
+  to(EventKind::rapid, 0, 0, 50);
+  s.begin("tap");
+  s.runs[0].surface = 2;
+  to(EventKind::rapid, 0, 0, across);
+  to(EventKind::rapid, 30, 20, across);
+  to(EventKind::rapid, 30, 20, 2);
+  for (const double z : {-4.0, 2.0, -10.0, 2.0}) to(EventKind::thread, 30, 20, z);
+  to(EventKind::rapid, 30, 20, 50);
+  s.end();
+  return s;
+}
+
+TEST(SimilarTap, GoesAcrossNoLowerThanTheSource) {
+  const auto with = [](double across) { return compare(tap(20), tap(across)); };
+  EXPECT_EQ(with(50).status, Status::within_tolerance) << with(50).difference.what;
+  EXPECT_TRUE(says(with(10).difference.what, "goes across to its cycle lower")) << with(10).difference.what;
+}
+
 }  // namespace
 }  // namespace cnctrans::test
