@@ -56,9 +56,7 @@ void CyclePass::define_here(Statement&& s, const CycleDefine& d, Body&& pieces, 
   Active a = define(d.cycle, d.trigger, b, facts_for_tap(s, b));
   if (!a.native && !d.modal && d.here) feed_as_a_word(a, b, facts);
   if (a.native && sense_.stands()) tell_standing_tap(*a.native, s.line, context_);
-  if (d.here)
-    judge_feedless_tap(*a.source, feeds_.at(s, b, facts), setting_in<FeedMode>(b, facts, Setting::feed_mode), s.line,
-                       program_, context_);
+  if (d.here) judge_feedless(a, s);
   tell_tap(a, s.line);
   tell_reference(a, s.line);
   if (a.needs.bound) callees_.bound_taps.insert(s.id);

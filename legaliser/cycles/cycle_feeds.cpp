@@ -3,11 +3,24 @@
 
 namespace cnctrans::ir::passes {
 
+void CyclePass::judge_feedless(Active& a, const Statement& s) const {
+  const auto& b = std::get<Block>(s.node);
+  const Facts& facts = facts_.before(s);
+  const auto mode = setting_in<FeedMode>(b, facts, Setting::feed_mode);
+  a.told_feedless =
+      a.told_feedless || judge_feedless_tap(*a.source, feeds_.at(s, b, facts), mode, s.line, program_, context_);
+}
+
 void CyclePass::feed_for_tap(Block& b, const Active& a) {
   if (!a.needs.feed || by_call_) return;
   std::erase_if(b.actions, [](const Action& x) { return std::holds_alternative<SetFeed>(x.data); });
   b.actions.push_back(action(SetFeed{*a.needs.feed, false}));
   tap_feed_ = true;
+}
+
+std::optional<Action> CyclePass::feed_after_tap(const Active& a, const Facts& facts) {
+  if (!a.needs.feed || !facts.feed) return std::nullopt;
+  return action(SetFeed{Value{*facts.feed}, false});
 }
 
 /// Equivalences 22.4: CYCLE85 with one feed for both ways is the target's reaming at that F; the F before comes back.

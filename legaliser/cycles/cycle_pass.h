@@ -85,6 +85,7 @@ class CyclePass {
     std::vector<VarRef> stale;             ///< read by its words and changed since its definition
     std::vector<std::uint32_t> said_by{};  ///< the statements that gave it its words
     bool told = true;                      ///< what is to be said of its reference plane, at its first point
+    bool told_feedless = false;            ///< that it taps by an F that nobody has given
   };
 
   /// How the cycle stands on the ways to a label.
@@ -273,10 +274,9 @@ class CyclePass {
   void feed_as_a_word(Active& a, const Block& b, const Facts& facts) const;
   /// The F that gives a tap its pitch stands beside its definition; the one before it comes back behind the cycle.
   void feed_for_tap(Block& b, const Active& a);
-  static std::optional<Action> feed_after_tap(const Active& a, const Facts& facts) {
-    if (!a.needs.feed || !facts.feed) return std::nullopt;
-    return action(SetFeed{Value{*facts.feed}, false});
-  }
+  static std::optional<Action> feed_after_tap(const Active& a, const Facts& facts);
+  /// A tap by F over S where no F has been given, said once for each definition.
+  void judge_feedless(Active& a, const Statement& s) const;
   /// Behind the tap, where the block has no F of its own. Also when the tap was off already, or another cycle follows.
   void feed_comes_back(const Statement& s, Block& b, const Facts& facts);
   /// A tap that stands elsewhere in the text may be in force here too.

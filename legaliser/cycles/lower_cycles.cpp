@@ -26,6 +26,7 @@ void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
   const bool new_plane = follow_retract_plane(b, facts), changed = follow_height(b, facts) || new_plane;
   const bool hole_here = triggers(b, facts);
   if (hole_here && !std::exchange(active_->told, true)) tell_reference(*active_, s.line);
+  if (hole_here) judge_feedless(*active_, s);
   if (hole_here && tap_feed_ && !active_->needs.feed) feed_comes_back(s, b, facts);  // a tap stood before this cycle
   if (hole_here && (refuse_unknown_plane(s, active_->source, out) || refuse_two_ways(s, out))) return;
   const LineInfo like = s.line;

@@ -71,9 +71,9 @@ class SpindleSense {
 };
 /// A tap that the spindle stands before: each control starts it, or does not, by itself.
 void tell_standing_tap(const Cycle& cycle, const LineInfo& where, const LegaliseContext& context);
-/// A tap whose pitch is F over S, where no F has been given: an error in another language. The feed of power-on is one
-/// in the feed mode of power-on alone.
-void judge_feedless_tap(const Cycle& cycle, const FeedBefore& feed, std::optional<FeedMode> mode, const LineInfo& where,
+/// True, with an error, in another language: a tap whose pitch is F over S runs where no F has been given. The feed of
+/// power-on is one in the feed mode of power-on alone.
+bool judge_feedless_tap(const Cycle& cycle, const FeedBefore& feed, std::optional<FeedMode> mode, const LineInfo& where,
                         const Program& program, const LegaliseContext& context);
 /// The pattern that stands in the block; nullptr: none.
 const NamedCycle* pattern_in(const Block& b);

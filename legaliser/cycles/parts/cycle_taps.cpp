@@ -178,16 +178,17 @@ void tell_standing_tap(const Cycle& cycle, const LineInfo& where, const Legalise
                               "write M3 or M4 before the cycle");
 }
 
-void judge_feedless_tap(const Cycle& cycle, const FeedBefore& feed, std::optional<FeedMode> mode, const LineInfo& where,
+bool judge_feedless_tap(const Cycle& cycle, const FeedBefore& feed, std::optional<FeedMode> mode, const LineInfo& where,
                         const Program& program, const LegaliseContext& context) {
   const auto* hole = std::get_if<HoleCycle>(&cycle.node);
-  if (hole == nullptr || !is_tap(*hole) || !hole->pitch.is(0) || hole->has_feed || !feed.none) return;
+  if (hole == nullptr || !is_tap(*hole) || !hole->pitch.is(0) || hole->has_feed || !feed.none) return false;
   const auto& machine = context.source_machine;
   const bool of_power_on = machine.power_on_feed > 0 && mode == machine.power_on.feed_mode;
-  if (of_power_on || program.dialect == context.target.dialect) return;
+  if (of_power_on || program.dialect == context.target.dialect) return false;
   context.diagnostics.error("TRN-330", where.span,
                             "the pitch of this tap is its feed over its speed, and no F has been given before it",
                             "write F before the cycle, or the pitch");
+  return true;
 }
 
 namespace {
