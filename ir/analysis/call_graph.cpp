@@ -17,6 +17,15 @@ CallGraph::CallGraph(const Program& program) : program_(program) {
       }
     });
   }
+  for (std::size_t i = 0; i < sites_.size(); ++i) first_of_.try_emplace(sites_[i].statement, i);
+}
+
+std::span<const CallSite> CallGraph::sites_of(const Statement& s) const {
+  const auto found = first_of_.find(&s);
+  if (found == first_of_.end()) return {};
+  std::size_t end = found->second;
+  while (end < sites_.size() && sites_[end].statement == &s) ++end;
+  return {sites_.data() + found->second, end - found->second};
 }
 
 void CallGraph::add(std::size_t caller, const Statement& s, const CallRoutine& call) {
@@ -78,16 +87,44 @@ const CallSite* CallGraph::recursion() const {
 ReadFirst::ReadFirst(const Program& program, const CallGraph& calls, bool follows_new_level)
     : program_(program), calls_(calls), follows_new_level_(follows_new_level) {}
 
-const ControlFlow& ReadFirst::flow(std::size_t routine) {
-  const auto it = flows_.find(routine);
-  if (it != flows_.end()) return it->second;
-  return flows_.emplace(routine, control_flow(program_, program_.routines[routine])).first->second;
+namespace {
+
+std::string name_of(const VarRef& v) {
+  return std::to_string(v.space) + ":" + v.name;
+}
+std::string with_index(const VarRef& v) {
+  const auto n = v.index ? constant_index(v) : std::nullopt;
+  return name_of(v) + "#" + (n ? std::to_string(*n) : "?");
+}
+
+}  // namespace
+
+const ReadFirst::OfRoutine& ReadFirst::of(std::size_t routine) {
+  const auto [it, fresh] = routines_.try_emplace(routine);
+  if (!fresh) return it->second;
+  auto& [flow, names] = it->second;
+  flow = control_flow(program_, program_.routines[routine]);
+  const auto note = [&names = names](const VarRef& v) {
+    names.insert(name_of(v));
+    names.insert(with_index(v));
+  };
+  const std::function<void(const ExprPtr&)> notes = [&note](const ExprPtr& e) {
+    walk(e, [&note](const ExprPtr& x) {
+      if (const auto* v = as_variable(x)) note(*v);
+    });
+  };
+  for_each_statement(program_.routines[routine].body, [&](const Statement& s) {
+    each_expression(s, notes);
+    each_target(s, note);
+    if (const auto* d = std::get_if<Declare>(&s.node)) {
+      for (const auto& item : d->items) note(VarRef{d->space, item.name, nullptr, {}});
+    }
+  });
+  return it->second;
 }
 
 bool ReadFirst::operator()(std::size_t routine, const VarRef& v) {
-  std::string key = std::to_string(v.space) + ":" + v.name;
-  if (const auto n = constant_index(v); v.index && n) key += std::to_string(*n);
-  return search(routine, v, key).reads;
+  return search(routine, v, v.index && constant_index(v) ? with_index(v) : name_of(v)).reads;
 }
 
 bool ReadFirst::statement_reads(const Statement& s, const VarRef& v, bool& written) const {
@@ -128,7 +165,8 @@ bool certain_call(const Statement& s) {
 ReadFirst::Seen ReadFirst::search(std::size_t routine, const VarRef& v, const std::string& key) {
   auto [it, fresh] = memo_.try_emplace({routine, key});
   if (!fresh) return it->second;
-  const ControlFlow& cf = flow(routine);
+  const auto& [cf, names] = of(routine);
+  const bool named = names.count(key) != 0 || names.count(name_of(v) + "#?") != 0;
   Seen found{false, program_.routines[routine].body.empty()};
   std::vector<bool> seen(cf.statements.size(), false);
   std::vector<std::uint32_t> open;
@@ -140,9 +178,9 @@ ReadFirst::Seen ReadFirst::search(std::size_t routine, const VarRef& v, const st
     seen[id] = true;
     const Statement& s = *cf.statements[id];
     bool written = false;
-    found.reads = statement_reads(s, v, written);
-    for (const auto& site : calls_.sites()) {
-      if (found.reads || site.statement != &s || !site.callee) continue;
+    found.reads = named && statement_reads(s, v, written);
+    for (const auto& site : calls_.sites_of(s)) {
+      if (found.reads || !site.callee) continue;
       if (site.level == CallLevel::new_level && !follows_new_level_) continue;
       if (const auto* c = std::get_if<CallRoutine>(&s.node); c != nullptr && c->has_range) {  // entered somewhere
         for_each_statement(program_.routines[*site.callee].body, [&](const Statement& inner) {

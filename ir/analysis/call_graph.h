@@ -4,7 +4,9 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "ir/analysis/dataflow.h"
@@ -23,6 +25,8 @@ class CallGraph {
  public:
   explicit CallGraph(const Program& program);
   [[nodiscard]] const std::vector<CallSite>& sites() const { return sites_; }
+  /// What the statement may call.
+  [[nodiscard]] std::span<const CallSite> sites_of(const Statement& s) const;
   [[nodiscard]] bool called_with(std::size_t routine, CallLevel level) const;
   [[nodiscard]] bool called(std::size_t routine) const;
   /// The routine, and those that it calls without a level of local parameters of their own.
@@ -34,7 +38,8 @@ class CallGraph {
  private:
   void add(std::size_t caller, const Statement& s, const CallRoutine& call);
   const Program& program_;
-  std::vector<CallSite> sites_;
+  std::vector<CallSite> sites_;                                 ///< those of a statement beside each other
+  std::unordered_map<const Statement*, std::size_t> first_of_;  ///< of its sites
 };
 
 /// Reading before writing, through calls that share the variable: what a called routine certainly writes is written.
@@ -51,11 +56,16 @@ class ReadFirst {
   };
   Seen search(std::size_t routine, const VarRef& v, const std::string& key);
   bool statement_reads(const Statement& s, const VarRef& v, bool& written) const;
-  const ControlFlow& flow(std::size_t routine);
+  struct OfRoutine {
+    ControlFlow flow;
+    std::set<std::string>
+        names;  ///< of its variables: with each index as a number, "?" for a computed one, and without
+  };
+  const OfRoutine& of(std::size_t routine);
   const Program& program_;
   const CallGraph& calls_;
   bool follows_new_level_;
-  std::map<std::size_t, ControlFlow> flows_;
+  std::map<std::size_t, OfRoutine> routines_;
   std::map<std::pair<std::size_t, std::string>, Seen> memo_;
 };
 

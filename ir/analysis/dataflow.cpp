@@ -2,12 +2,12 @@
 #include "ir/analysis/dataflow.h"
 
 #include <algorithm>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
 #include "ir/analysis/fact_set.h"
 #include "ir/analysis/modal_runs.h"
-#include "ir/cycles/hole.h"
 #include "ir/edit/labels.h"
 #include "ir/edit/skip_stretches.h"
 #include "ir/nesting.h"
@@ -73,7 +73,11 @@ class Analysis {
       mark_skipped(r.body);
     }
     for (const auto* s : statements_) {
-      if (s != nullptr) note_cycles(*s);
+      if (s != nullptr) note_cycles(*s, cycles_);
+      const auto* b = s != nullptr ? std::get_if<Block>(&s->node) : nullptr;
+      chooses_spindles_ |= b != nullptr && std::any_of(b->actions.begin(), b->actions.end(), [](const Action& a) {
+                             return std::holds_alternative<MasterSpindle>(a.data);
+                           });
       const auto* m = s != nullptr ? std::get_if<ModalCall>(&s->node) : nullptr;
       if (m == nullptr || m->off || m->cycle) continue;
       const Callee callee = called(m->call);
@@ -84,21 +88,6 @@ class Analysis {
     framed_ = frame_reach(program_, power_on_);
     probes_ = probes(cycles_);
     find_changes();
-  }
-
-  void note_cycle(const CyclePtr& cycle) {
-    const auto* hole = cycle ? std::get_if<HoleCycle>(&cycle->node) : nullptr;
-    cycles_.any = true;
-    cycles_.other_than_holes |= hole == nullptr || !cycles::ends_over_its_place(*hole);
-  }
-  void note_cycles(const Statement& s) {
-    if (const auto* m = std::get_if<ModalCall>(&s.node); m != nullptr && m->cycle) note_cycle(m->cycle);
-    const auto* b = std::get_if<Block>(&s.node);
-    if (b == nullptr) return;
-    for (const auto& a : b->actions) {
-      chooses_spindles_ |= std::holds_alternative<MasterSpindle>(a.data);
-      if (const auto* c = std::get_if<CycleDefine>(&a.data); c != nullptr && c->modal) note_cycle(c->cycle);
-    }
   }
 
   void resize(std::size_t n) {
@@ -168,21 +157,29 @@ class Analysis {
 
   // --- what a routine can change ------------------------------------------------------------------------------------
 
-  FactSet changed_through_calls(const Statement& s) {
-    FactSet all;
+  using Calls = std::set<std::pair<std::size_t, std::size_t>>;  ///< caller, callee
+
+  /// What a statement of the routine can change by itself; what it calls is noted.
+  FactSet changed_beside_calls(const Statement& s, std::size_t routine, Calls& calls) {
+    FactSet set, all;
     all.set();
-    const auto of = [&](const Callee& c) { return c.known ? routines_[c.routine].changes : all; };
-    if (const auto* c = std::get_if<CallRoutine>(&s.node)) return of(called(*c));
-    if (const auto* r = std::get_if<Repeat>(&s.node); r != nullptr && r->has_program) {
-      return of(range_of(find_routine(r->program), *r));
-    }
-    FactSet set = changed_by(s, probes_, framed_);
-    if (std::holds_alternative<ModalCall>(s.node)) set[modal_call_bit] = true;
+    const auto through = [&](const Callee& c) {
+      if (c.known)
+        calls.emplace(routine, c.routine);
+      else
+        set = all;
+    };
+    if (const auto* c = std::get_if<CallRoutine>(&s.node)) return through(called(*c)), set;
+    if (const auto* r = std::get_if<Repeat>(&s.node); r != nullptr && r->has_program)
+      return through(range_of(find_routine(r->program), *r)), set;
+    set = changed_by(s, probes_, framed_);
+    const auto* m = std::get_if<ModalCall>(&s.node);
+    if (m != nullptr) set[modal_call_bit] = true;
     if (moves(s) || may_run_modal_call(s)) {
-      for (const auto target : modal_targets_) set |= routines_[target].changes;
+      for (const auto target : modal_targets_) calls.emplace(routine, target);
       if (modal_unknown_) set = all;
     }
-    if (const auto* m = std::get_if<ModalCall>(&s.node); m != nullptr && m->here) set |= of(called(m->call));
+    if (m != nullptr && m->here) through(called(m->call));
     return set;
   }
 
@@ -198,15 +195,18 @@ class Analysis {
       if (callee != nowhere) wanted[callee] = true;
     }
     if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) return;
+    Calls calls;
+    for (std::uint32_t id = 1; id < statements_.size(); ++id) {
+      if (statements_[id] == nullptr || !wanted[routine_of_[id]]) continue;
+      FactSet& changes = routines_[routine_of_[id]].changes;
+      if (!changes.all()) changes |= changed_beside_calls(*statements_[id], routine_of_[id], calls);
+    }
     for (bool grown = true; grown;) {
       grown = false;
-      for (std::uint32_t id = 1; id < statements_.size(); ++id) {
-        if (statements_[id] == nullptr || !wanted[routine_of_[id]]) continue;
-        FactSet& changes = routines_[routine_of_[id]].changes;
-        if (changes.all()) continue;
-        const FactSet more = changes | changed_through_calls(*statements_[id]);
-        grown |= more != changes;
-        changes = more;
+      for (const auto& [caller, callee] : calls) {
+        const FactSet more = routines_[caller].changes | routines_[callee].changes;
+        grown |= more != routines_[caller].changes;
+        routines_[caller].changes = more;
       }
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ir/cycles/hole.h"
 #include "ir/cycles/pattern.h"
 
 namespace cnctrans::ir::detail {
@@ -126,6 +127,20 @@ void take(Facts& facts, const Facts& from, const FactSet& set) {
   }
   if (set[modal_call_bit]) facts.modal_call = from.modal_call;
   if (set[master_bit]) facts.master = from.master;
+}
+
+void note_cycles(const Statement& s, CyclesUsed& cycles) {
+  const auto note = [&cycles](const CyclePtr& cycle) {
+    const auto* hole = cycle ? std::get_if<HoleCycle>(&cycle->node) : nullptr;
+    cycles.any = true;
+    cycles.other_than_holes |= hole == nullptr || !cycles::ends_over_its_place(*hole);
+  };
+  if (const auto* m = std::get_if<ModalCall>(&s.node); m != nullptr && m->cycle) note(m->cycle);
+  const auto* b = std::get_if<Block>(&s.node);
+  if (b == nullptr) return;
+  for (const auto& a : b->actions) {
+    if (const auto* c = std::get_if<CycleDefine>(&a.data); c != nullptr && c->modal) note(c->cycle);
+  }
 }
 
 std::array<Facts, 4> probes(const CyclesUsed& cycles) {

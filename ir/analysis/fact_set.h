@@ -24,6 +24,7 @@ struct CyclesUsed {
   bool any = false;
   bool other_than_holes = false;
 };
+void note_cycles(const Statement& s, CyclesUsed& cycles);
 
 /// What the frame statements of a program reach.
 struct FrameReach {

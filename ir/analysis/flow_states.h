@@ -2,7 +2,6 @@
 // statement. A subprogram starts with what all its callers agree on, and gives back what its ends agree on.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <vector>
 
@@ -52,10 +51,7 @@ class FlowStates {
     }
   }
   /// nullptr: the statement is never reached, or made after the analysis.
-  [[nodiscard]] const State* before(const Statement& s) const {
-    const auto it = states_.find(s.id);
-    return it == states_.end() ? nullptr : &it->second;
-  }
+  [[nodiscard]] const State* before(const Statement& s) const { return has(s.id) ? &*states_[s.id] : nullptr; }
   /// Behind the last statement and the returns of a routine; nullptr: control never comes there.
   [[nodiscard]] const State* behind(std::size_t routine) const {
     const auto& exit = routines_[routine].exit;
@@ -143,7 +139,7 @@ class FlowStates {
       meet(r.body.front().id, *of.entry);
       // What a callee gives back may have changed as well: everything is looked at again.
       for_each_statement(r.body, [&](const Statement& s) {
-        if (states_.count(s.id) != 0) open.push_back(s.id);
+        if (has(s.id)) open.push_back(s.id);
       });
     }
     while (!open.empty()) {
@@ -151,7 +147,7 @@ class FlowStates {
       open.pop_back();
       if (id == 0 || id >= of.flow.statements.size() || of.flow.statements[id] == nullptr) continue;
       const Statement& s = *of.flow.statements[id];
-      const State before = states_.at(id);
+      const State before = *states_[id];
       auto state = after(s, before);
       if (!state) continue;
       if (s.line.skip_mask != 0) domain_.join(*state, before);
@@ -166,9 +162,13 @@ class FlowStates {
     for (auto& other : routines_) other.open = other.open || other.entry.has_value();
   }
   bool meet(std::uint32_t id, const State& state) {
-    const auto [it, fresh] = states_.emplace(id, state);
-    return fresh || domain_.join(it->second, state);
+    if (states_.size() <= id) states_.resize(id + 1);
+    auto& there = states_[id];
+    if (there) return domain_.join(*there, state);
+    there = state;
+    return true;
   }
+  [[nodiscard]] bool has(std::uint32_t id) const { return id < states_.size() && states_[id]; }
 
   std::optional<State> after(const Statement& s, State state) {
     if (const auto* call = std::get_if<CallRoutine>(&s.node)) {
@@ -223,7 +223,7 @@ class FlowStates {
   std::vector<OfRoutine> routines_;
   std::vector<std::size_t> modal_callees_;
   bool modal_unknown_ = false;
-  std::map<std::uint32_t, State> states_;
+  std::vector<std::optional<State>> states_;  ///< by the number of the statement
 };
 
 }  // namespace cnctrans::ir::passes

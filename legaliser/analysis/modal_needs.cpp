@@ -131,14 +131,13 @@ void ModalNeeds::leave(std::size_t routine, Search& search) {
 
 void ModalNeeds::step(std::size_t routine, const Statement& s, Search& search) {
   if (const auto* call = std::get_if<CallRoutine>(&s.node)) {
-    const auto site = std::find_if(calls_.sites().begin(), calls_.sites().end(),
-                                   [&s](const CallSite& c) { return c.statement == &s; });
-    if (reads_machine(s) || call->has_range || call->computed || site == calls_.sites().end() || !site->callee) {
+    const auto sites = calls_.sites_of(s);
+    if (reads_machine(s) || call->has_range || call->computed || sites.empty() || !sites.front().callee) {
       search.needed = true;
       return;
     }
-    enter(*site->callee, search);
-    const bool passed = program_.routines[*site->callee].saves_modals || call->count || s.line.skip_mask != 0;
+    enter(*sites.front().callee, search);
+    const bool passed = program_.routines[*sites.front().callee].saves_modals || call->count || s.line.skip_mask != 0;
     if (passed) behind_statement(routine, s, search);
     return;
   }

@@ -15,8 +15,8 @@ namespace {
 
 class ControlPass {
  public:
-  ControlPass(Editor& editor)
-      : editor_(editor), target_(editor.target()), structures_(editor.program, editor.routine) {}
+  ControlPass(Editor& editor, const ExactNumbers& numbers)
+      : editor_(editor), target_(editor.target()), structures_(editor.program, editor.routine, numbers) {}
 
   void body(Body& b) {
     Body out;
@@ -485,15 +485,17 @@ class ComputedJumps {
 }  // namespace
 
 void lower_structures(Editor& editor, Body& body) {
-  ControlPass(editor).body(body);
+  const ExactNumbers numbers(editor.program);
+  ControlPass(editor, numbers).body(body);
 }
 
 void lower_control(Program& program, const LegaliseContext& context) {
   leave_out_refused_data(program, context);
+  const ExactNumbers numbers(program);
   for (auto& r : program.routines) {
     Editor editor(program, r, context);
     ComputedJumps(editor).run();
-    ControlPass(editor).body(r.body);
+    ControlPass(editor, numbers).body(r.body);
   }
 }
 

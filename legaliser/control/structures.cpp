@@ -48,8 +48,8 @@ ExprPtr in_target_form(const ExprPtr& e, Compare compare) {
   return binary(b.op, in_target_form(b.left, compare), in_target_form(b.right, compare));
 }
 
-Structures::Structures(const Program& program, const Routine& routine)
-    : uses_(label_uses(program, routine)), whole_(program, 1), parts_(program, 1024) {}
+Structures::Structures(const Program& program, const Routine& routine, const ExactNumbers& numbers)
+    : uses_(label_uses(program, routine)), numbers_(numbers) {}
 
 bool Structures::operand_fits(const ExprPtr& e, const Capabilities& target) const {
   return operand(e) && (as_number(e) == nullptr ||
@@ -59,8 +59,7 @@ bool Structures::operand_fits(const ExprPtr& e, const Capabilities& target) cons
 
 bool Structures::condition_fits(const ExprPtr& e, const Capabilities& target) const {
   return is_relation_chain(e) && each_relation(e, [&](const Binary& b) {
-           const auto exact = [this](const ExprPtr& x) { return whole_.exact(x) || parts_.exact(x); };
-           const bool same = b.compare == target.compare || (exact(b.left) && exact(b.right));
+           const bool same = b.compare == target.compare || (numbers_.has(b.left) && numbers_.has(b.right));
            return same && operand_fits(b.left, target) && operand_fits(b.right, target);
          });
 }
@@ -68,9 +67,8 @@ bool Structures::condition_fits(const ExprPtr& e, const Capabilities& target) co
 bool Structures::relation_fits(const ExprPtr& e, const Capabilities& target) const {
   const auto* b = e ? std::get_if<Binary>(&e->node) : nullptr;
   if (b == nullptr || !is_comparison(b->op) || b->left->type == Type::string) return false;
-  const auto exact = [this](const ExprPtr& x) { return whole_.exact(x) || parts_.exact(x); };
   const bool numbers = constant_value(b->left) && constant_value(b->right);
-  return !numbers && (b->compare == target.compare || (exact(b->left) && exact(b->right)));
+  return !numbers && (b->compare == target.compare || (numbers_.has(b->left) && numbers_.has(b->right)));
 }
 
 ExprPtr Structures::unrounded(const ExprPtr& e) const {
@@ -78,7 +76,7 @@ ExprPtr Structures::unrounded(const ExprPtr& e) const {
   const bool rounds =
       c != nullptr && c->args.size() == 1 &&
       (c->function == Function::to_integer || c->function == Function::round || c->function == Function::trunc);
-  return rounds && whole_.exact(c->args[0]) ? c->args[0] : e;
+  return rounds && numbers_.whole.exact(c->args[0]) ? c->args[0] : e;
 }
 
 bool Structures::closed(const Body& body) const {

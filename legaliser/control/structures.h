@@ -14,7 +14,7 @@ ExprPtr in_target_form(const ExprPtr& e, Compare compare);
 /// Looked up before the routine is rewritten: its labels and who goes to them.
 class Structures {
  public:
-  Structures(const Program& program, const Routine& routine);
+  Structures(const Program& program, const Routine& routine, const ExactNumbers& numbers);
   /// The condition needs nothing before it and compares without a tolerance, or exactly as the target does.
   [[nodiscard]] bool condition_fits(const ExprPtr& e, const Capabilities& target) const;
   /// One relation, of whatever the target can put into a variable before it.
@@ -28,7 +28,7 @@ class Structures {
 
  private:
   LabelUses uses_;
-  IntegerVariables whole_, parts_;
+  const ExactNumbers& numbers_;
 };
 
 }  // namespace cnctrans::ir::passes

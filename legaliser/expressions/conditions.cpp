@@ -272,8 +272,7 @@ class ConditionPass {
         band_(band_of(context.target)),
         near_(equal_within(context.source_machine) > 0 && equal_within(context.target_machine) == 0),
         far_(equal_within(context.source_machine) == 0 && equal_within(context.target_machine) > 0),
-        integers_(program, 1),
-        parts_(program, 1024) {}
+        numbers_(program) {}
 
   void routine(Program& program, Routine& r) {
     Editor editor(program, r, context_);
@@ -380,7 +379,7 @@ class ConditionPass {
   }
   /// A value that the program computes, with rounding errors; not one that comes from outside.
   [[nodiscard]] bool computed(const ExprPtr& e) const {
-    return e && !plain(e) && !parts_.exact(e) && !integers_.exact(e) && !parts_.untouched(e);
+    return e && !plain(e) && !exact(e) && !numbers_.parts.untouched(e);
   }
   /// A number as it is written, or one that is computed without rounding.
   static bool plain(const ExprPtr& e) {
@@ -391,7 +390,7 @@ class ConditionPass {
     return value && (written || std::nearbyint(*value * parts) == *value * parts);
   }
   /// Computed without rounding: whole numbers, halves, quarters... The comparison needs no tolerance then.
-  [[nodiscard]] bool exact(const ExprPtr& e) const { return integers_.exact(e) || parts_.exact(e); }
+  [[nodiscard]] bool exact(const ExprPtr& e) const { return numbers_.has(e); }
   /// Equality: a difference of at most the band.
   ExprPtr within(const Binary& b) const {
     const ExprPtr difference = binary(BinaryOp::subtract, b.left, b.right);
@@ -427,9 +426,9 @@ class ConditionPass {
 
   const LegaliseContext& context_;
   double band_;
-  bool near_;                          ///< equality of the source has a tolerance that the target lacks
-  bool far_;                           ///< and the other way round
-  IntegerVariables integers_, parts_;  ///< whole numbers, and multiples of 1/1024
+  bool near_;  ///< equality of the source has a tolerance that the target lacks
+  bool far_;   ///< and the other way round
+  ExactNumbers numbers_;
 };
 
 }  // namespace

@@ -98,4 +98,11 @@ class IntegerVariables {
   std::set<std::string> not_whole_, assigned_;
 };
 
+/// What compares exactly whatever tolerance a control has: whole numbers, and multiples of 1/1024.
+struct ExactNumbers {
+  explicit ExactNumbers(const Program& program) : whole(program, 1), parts(program, 1024) {}
+  [[nodiscard]] bool has(const ExprPtr& e) const { return whole.exact(e) || parts.exact(e); }
+  IntegerVariables whole, parts;
+};
+
 }  // namespace cnctrans::ir::passes

@@ -2,6 +2,7 @@
 // in the place of the variable, and what is computed from it is written as its result.
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <set>
 
 #include "ir/analysis/flow_states.h"
@@ -23,7 +24,20 @@ bool is_literal(const ExprPtr& e) {
 /// them.
 class KnownLiterals {
  public:
-  using State = std::map<std::string, ExprPtr>;
+  using Values = std::map<std::string, ExprPtr>;
+  /// Shared by the statements that change nothing.
+  class State {
+   public:
+    [[nodiscard]] const Values& get() const { return *values_; }
+    Values& own() {
+      if (values_.use_count() > 1) values_ = std::make_shared<Values>(*values_);
+      return *values_;
+    }
+    [[nodiscard]] bool same(const State& other) const { return values_ == other.values_; }
+
+   private:
+    std::shared_ptr<Values> values_ = std::make_shared<Values>();
+  };
 
   KnownLiterals(const Program& program, const LegaliseContext& context) : program_(program), context_(context) {
     for (std::size_t r = 0; r < program.routines.size(); ++r) {
@@ -51,13 +65,16 @@ class KnownLiterals {
   }
   /// Variables that other routines can change as well are forgotten.
   static void unknown(State& state) {
-    std::erase_if(state, [](const auto& entry) { return entry.first.find('*') != std::string::npos; });
+    std::erase_if(state.own(), [](const auto& entry) { return entry.first.find('*') != std::string::npos; });
   }
   static bool join(State& a, const State& b) {
-    return std::erase_if(a, [&b](const auto& entry) {
-             const auto it = b.find(entry.first);
-             return it == b.end() || !equal(it->second, entry.second);
-           }) != 0;
+    const auto lost = [&b](const auto& entry) {
+      const auto it = b.get().find(entry.first);
+      return it == b.get().end() || !equal(it->second, entry.second);
+    };
+    if (a.same(b) || std::none_of(a.get().begin(), a.get().end(), lost)) return false;
+    std::erase_if(a.own(), lost);
+    return true;
   }
   void transfer(const Statement& s, State& state) const {
     if (const auto* a = std::get_if<Assign>(&s.node)) {
@@ -68,7 +85,7 @@ class KnownLiterals {
         define(*d, item, first ? with_known_texts(first, values(s, state)) : nullptr, s, state);
       }
     } else if (const auto* o = std::get_if<Opaque>(&s.node)) {
-      if (!o->harmless) state.clear();
+      if (!o->harmless) state = {};
     } else {
       each_target(s, [&](const VarRef& v) { forget(v, s, state); });
     }
@@ -92,8 +109,8 @@ class KnownLiterals {
     KnownValues known;
     const bool shows = std::holds_alternative<Message>(s.node) && context_.target.message_values;
     known.variable = [this, &s, &state, shows](const VarRef& v) -> ExprPtr {
-      const auto it = state.find(name_of(v, s));
-      return it == state.end() || (shows && as_number(it->second) != nullptr) ? nullptr : it->second;
+      const auto it = state.get().find(name_of(v, s));
+      return it == state.get().end() || (shows && as_number(it->second) != nullptr) ? nullptr : it->second;
     };
     known.axis_name = [this](AxisId a) {
       const auto* spec = context_.source_machine.axis(a);
@@ -125,18 +142,18 @@ class KnownLiterals {
     return name + (n ? std::to_string(*n) : v.name);
   }
   void forget(const VarRef& v, const Statement& s, State& state) const {
-    state.erase(name_of(v, s));
+    if (const std::string name = name_of(v, s); state.get().count(name) != 0) state.own().erase(name);
     if (!v.index || constant_index(v)) return;
     const std::string prefix = std::to_string(v.space) + ":";
-    std::erase_if(state, [&prefix](const auto& entry) { return entry.first.starts_with(prefix); });
+    std::erase_if(state.own(), [&prefix](const auto& entry) { return entry.first.starts_with(prefix); });
   }
   void set(const VarRef& v, const ExprPtr& value, const Statement& s, State& state) const {
     const std::string name = name_of(v, s);
     if (name.empty() || !value || s.line.skip_mask != 0 || handed_over_.count(name) != 0) return;
     if (holds_no_number(v)) {
-      if (is_literal(value)) state[name] = value;
+      if (is_literal(value)) state.own()[name] = value;
     } else if (const auto n = constant_value(value); n && value->type != Type::string) {
-      state[name] = number(*n);
+      state.own()[name] = number(*n);
     }
   }
 

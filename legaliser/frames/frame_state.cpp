@@ -74,6 +74,10 @@ void FrameState::forget_expressions() {
   }
 }
 
+bool FrameState::has_expressions() const {
+  return std::any_of(slots_.begin(), slots_.end(), [](const PlanarFrame& f) { return f.has_expressions(); });
+}
+
 void FrameState::forget(const VarRef& var) {
   for (auto& f : slots_) {
     f.each_value([&var](std::optional<Value>& v) {

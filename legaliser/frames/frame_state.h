@@ -2,7 +2,7 @@
 #pragma once
 
 #include <array>
-#include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -38,6 +38,7 @@ class FrameState {
   void forget(const VarRef& v);
   /// Values that are expressions: their variables may mean something else now.
   void forget_expressions();
+  [[nodiscard]] bool has_expressions() const;
   /// A slot as another analysis knows it.
   void put(FrameSlot s, const PlanarFrame& frame) { at(s) = frame; }
   void limit(const SlotUses& uses) { uses_ = uses; }
@@ -64,9 +65,11 @@ class FrameState {
 class FrameStates {
  public:
   FrameStates(const Program& program, const FactsOf& facts, const LegaliseContext& context);
-  [[nodiscard]] FrameState before(const Statement& s) const;
+  [[nodiscard]] const FrameState& before(const Statement& s) const;
 
  private:
+  /// Shared by all statements that it holds for.
+  using State = std::shared_ptr<const FrameState>;
   struct OfRoutine {
     ControlFlow flow;
     std::optional<FrameState> entry, exit;  ///< none: not reached yet
@@ -77,10 +80,10 @@ class FrameStates {
   void look();
   void enter(std::size_t routine, FrameState state);
   void follow(std::size_t routine);
-  /// State after the statement; none: the callee has not come back yet.
-  std::optional<FrameState> after(std::size_t routine, const Statement& s, FrameState state);
-  std::optional<FrameState> after_call(std::size_t routine, const CallRoutine& call, FrameState state);
-  void forget_written(std::size_t caller, FrameState& state) const;
+  /// State after the statement; nullptr: the callee has not come back yet.
+  State after(std::size_t routine, const Statement& s, const State& before);
+  State after_call(std::size_t routine, const CallRoutine& call, const State& before);
+  State without_written(std::size_t caller, const State& before) const;
 
   const Program& program_;
   const FactsOf& facts_;
@@ -88,7 +91,7 @@ class FrameStates {
   FrameState neutral_, unknown_;
   bool modal_calls_change_ = false;  ///< a modal call runs a subprogram that changes the frame
   std::vector<OfRoutine> routines_;
-  std::map<std::uint32_t, FrameState> states_;
+  std::vector<State> states_;  ///< by the number of the statement
 };
 
 }  // namespace cnctrans::ir::passes

@@ -62,15 +62,14 @@ bool indifferent(const Statement* s) {
 /// A repeated range that leaves the frame alone is passed by: what holds before its Repeat holds behind it, whoever
 /// else runs the range.
 void pass_by_repeats(ControlFlow& flow) {
-  const auto labelled = [&flow](const LabelRef& l) {
-    for (std::uint32_t id = 1; id < flow.statements.size(); ++id) {
-      const Statement* s = flow.statements[id];
-      if (s == nullptr) continue;
-      for (const auto& have : labels_on(s->line)) {
-        if (same_label(have, l)) return id;
-      }
-    }
-    return std::uint32_t{0};
+  std::map<std::pair<bool, std::string>, std::uint32_t> at;  // whether it is a number, its text
+  for (std::uint32_t id = 1; id < flow.statements.size(); ++id) {
+    if (flow.statements[id] == nullptr) continue;
+    for (auto& l : labels_on(flow.statements[id]->line)) at.try_emplace({l.is_number, std::move(l.text)}, id);
+  }
+  const auto labelled = [&at](const LabelRef& l) {
+    const auto found = at.find({l.is_number, l.text});
+    return found == at.end() || l.computed ? std::uint32_t{0} : found->second;
   };
   const auto leads_to = [&flow](std::uint32_t from, std::uint32_t to) {
     const auto& next = flow.successors[from];
@@ -266,8 +265,9 @@ void FrameStates::follow(std::size_t routine) {
   if (r.body.empty()) {
     leave(*of.entry);
   } else {
-    for_each_statement(r.body, [this](const Statement& s) { states_.erase(s.id); });
-    states_.emplace(r.body.front().id, *of.entry);
+    states_.resize(std::max(states_.size(), of.flow.statements.size()));
+    for_each_statement(r.body, [this](const Statement& s) { states_[s.id].reset(); });
+    states_[r.body.front().id] = std::make_shared<FrameState>(*of.entry);
     open.push_back(r.body.front().id);
   }
   while (!open.empty()) {
@@ -275,23 +275,27 @@ void FrameStates::follow(std::size_t routine) {
     open.pop_back();
     if (id == 0 || id >= of.flow.statements.size() || of.flow.statements[id] == nullptr) continue;
     const Statement& s = *of.flow.statements[id];
-    const FrameState before = states_.at(id);
-    auto state = after(routine, s, before);
+    const State before = states_[id];
+    State state = after(routine, s, before);
     if (!state) continue;
-    if (s.line.skip_mask != 0) state->join(before);
+    if (s.line.skip_mask != 0 && state != before) {
+      auto either = std::make_shared<FrameState>(*state);
+      either->join(*before);
+      state = std::move(either);
+    }
     if (std::holds_alternative<Return>(s.node)) leave(*state);
     for (const auto next : of.flow.successors[id]) {
       if (next == 0 && leaves_by(s)) leave(*state);
-      if (next == 0) continue;
-      const auto [it, fresh] = states_.emplace(next, *state);
-      if (fresh) {
-        open.push_back(next);
-        continue;
+      if (next == 0 || states_[next] == state) continue;
+      State& there = states_[next];
+      if (!there) {
+        there = state;
+      } else {
+        auto joined = std::make_shared<FrameState>(*there);
+        joined->join(*state);
+        if (*joined == *there) continue;
+        there = std::move(joined);
       }
-      FrameState joined = it->second;
-      joined.join(*state);
-      if (joined == it->second) continue;
-      it->second = joined;
       open.push_back(next);
     }
   }
@@ -302,65 +306,81 @@ void FrameStates::follow(std::size_t routine) {
   for (auto& other : routines_) other.open = other.open || other.entry.has_value();
 }
 
-std::optional<FrameState> FrameStates::after(std::size_t routine, const Statement& s, FrameState state) {
+namespace {
+/// The block may change the frame.
+bool touches(const Block& b) {
+  return std::any_of(b.actions.begin(), b.actions.end(), [](const Action& a) {
+    const auto* m = std::get_if<ModalSet>(&a.data);
+    return std::holds_alternative<FrameOp>(a.data) || std::holds_alternative<WorkOffset>(a.data) ||
+           (m != nullptr && (m->setting == Setting::units || m->setting == Setting::diameter));
+  });
+}
+}  // namespace
+
+FrameStates::State FrameStates::after(std::size_t routine, const Statement& s, const State& before) {
+  const auto forgotten = [&before] {
+    auto state = std::make_shared<FrameState>(*before);
+    state->forget();
+    return state;
+  };
   if (const auto* b = std::get_if<Block>(&s.node)) {
-    state.follow_units(*b, facts_.before(s), machine_);
+    const bool runs_subprogram = b->has_motion && modal_calls_change_;
+    if (!touches(*b)) return runs_subprogram ? forgotten() : before;
+    auto state = std::make_shared<FrameState>(*before);
+    state->follow_units(*b, facts_.before(s), machine_);
     for (const auto& a : b->actions) {
       if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change)
-        state.apply(*f->change, facts_.before(s), *b, machine_);
-      if (const auto* w = std::get_if<WorkOffset>(&a.data)) state.select(*w, machine_);
+        state->apply(*f->change, facts_.before(s), *b, machine_);
+      if (const auto* w = std::get_if<WorkOffset>(&a.data)) state->select(*w, machine_);
     }
-    if (b->has_motion && modal_calls_change_) state.forget();
+    if (runs_subprogram) state->forget();
     return state;
   }
-  if (runs_part(s)) {
-    state.forget();
-    return state;
-  }
-  if (const auto* call = std::get_if<CallRoutine>(&s.node)) return after_call(routine, *call, state);
-  if (std::holds_alternative<ModalCall>(s.node)) {
-    if (modal_calls_change_) state.forget();
-    return state;
-  }
-  each_target(s, [&state](const VarRef& v) { state.forget(v); });
+  if (runs_part(s)) return forgotten();
+  if (const auto* call = std::get_if<CallRoutine>(&s.node)) return after_call(routine, *call, before);
+  if (std::holds_alternative<ModalCall>(s.node)) return modal_calls_change_ ? forgotten() : before;
+  if (!before->has_expressions()) return before;
+  auto state = std::make_shared<FrameState>(*before);
+  each_target(s, [&state](const VarRef& v) { state->forget(v); });
   return state;
 }
 
-std::optional<FrameState> FrameStates::after_call(std::size_t routine, const CallRoutine& call, FrameState state) {
+FrameStates::State FrameStates::after_call(std::size_t routine, const CallRoutine& call, const State& before) {
   const Routine* callee = call.computed ? nullptr : program_.find(call.routine);
   if (callee == nullptr) {
-    state.forget();
+    auto state = std::make_shared<FrameState>(*before);
+    state->forget();
     return state;
   }
   auto& of = routines_[static_cast<std::size_t>(callee - program_.routines.data())];
-  enter(static_cast<std::size_t>(callee - program_.routines.data()), state);
-  if (!of.changes_frames) {
-    forget_written(routine, state);
-    return state;
-  }
-  if (!of.exit) return std::nullopt;
-  FrameState back = *of.exit;
-  back.forget_expressions();
+  enter(static_cast<std::size_t>(callee - program_.routines.data()), *before);
+  if (!of.changes_frames) return without_written(routine, before);
+  if (!of.exit) return nullptr;
+  auto back = std::make_shared<FrameState>(*of.exit);
+  back->forget_expressions();
   if (call.count) {  // any number of times, none included
-    enter(static_cast<std::size_t>(callee - program_.routines.data()), back);
-    back.join(state);
+    enter(static_cast<std::size_t>(callee - program_.routines.data()), *back);
+    back->join(*before);
   }
   return back;
 }
 
 /// What other routines write may stand in the expressions of the caller's frame.
-void FrameStates::forget_written(std::size_t caller, FrameState& state) const {
+FrameStates::State FrameStates::without_written(std::size_t caller, const State& before) const {
+  if (!before->has_expressions()) return before;
+  auto state = std::make_shared<FrameState>(*before);
   for (std::size_t i = 0; i < program_.routines.size(); ++i) {
     if (i == caller) continue;
     for_each_statement(program_.routines[i].body, [&state](const Statement& s) {
-      each_target(s, [&state](const VarRef& v) { state.forget(v); });
+      each_target(s, [&state](const VarRef& v) { state->forget(v); });
     });
   }
+  return state;
 }
 
-FrameState FrameStates::before(const Statement& s) const {
-  const auto it = states_.find(s.id);
-  return it != states_.end() ? it->second : unknown_;
+const FrameState& FrameStates::before(const Statement& s) const {
+  const bool reached = s.id < states_.size() && states_[s.id];
+  return reached ? *states_[s.id] : unknown_;
 }
 
 }  // namespace cnctrans::ir::passes

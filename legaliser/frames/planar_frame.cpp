@@ -75,6 +75,11 @@ bool PlanarFrame::has_shift() const {
   return std::any_of(shift.begin(), shift.end(), [](const auto& v) { return !v || !v->is(0); });
 }
 
+bool PlanarFrame::has_expressions() const {
+  const auto computed = [](const std::optional<Value>& v) { return v && v->expr; };
+  return computed(angle) || computed(factor) || std::any_of(shift.begin(), shift.end(), computed);
+}
+
 bool PlanarFrame::neutral() const {
   return known() && !has_shift() && !turns() && !scales() && !mirrors();
 }

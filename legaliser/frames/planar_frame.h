@@ -32,7 +32,8 @@ struct PlanarFrame {
   /// Without the remark on `scaled`, for who looks at it.
   [[nodiscard]] PlanarFrame with_axes() const;
   [[nodiscard]] bool neutral() const;
-  [[nodiscard]] bool has_shift() const;  ///< an axis whose shift is not known to be 0
+  [[nodiscard]] bool has_expressions() const;  ///< a value that goes by variables
+  [[nodiscard]] bool has_shift() const;        ///< an axis whose shift is not known to be 0
   [[nodiscard]] bool turns() const { return !(angle && angle->is(0)); }
   [[nodiscard]] bool scales() const { return !(factor && factor->is(1)); }
   [[nodiscard]] bool mirrors() const { return mirror != 0U; }

@@ -215,14 +215,13 @@ bool names_labels_of_others(const Program& program) {
   return found;
 }
 
-void tidy_body(Body& body, const Program& program, const Routine& routine, const LegaliseContext& context) {
-  const LabelUses uses = label_uses(program, routine);
+void tidy_body(Body& body, const Program& program, const LabelUses& uses, const LegaliseContext& context) {
   Body out;
   out.reserve(body.size());
   bool begins_line = false;  // the statement that the line began with has gone
   for (auto& s : body) {
     s.line.joined = s.line.joined && !std::exchange(begins_line, false);
-    each_body(s, [&](Body& inner) { tidy_body(inner, program, routine, context); });
+    each_body(s, [&](Body& inner) { tidy_body(inner, program, uses, context); });
     if (program.dialect != context.target.dialect && !out.empty() && join_assignments(out.back(), s, context.target))
       continue;
     if (program.dialect != context.target.dialect && cleared_before(out, s)) continue;
@@ -259,7 +258,7 @@ void tidy(Program& program, const LegaliseContext& context) {
   for (auto& r : program.routines) {
     if (program.dialect != context.target.dialect && !calls_of_parts) lead_on(r, r.body, context);
   }
-  for (auto& r : program.routines) tidy_body(r.body, program, r, context);
+  for (auto& r : program.routines) tidy_body(r.body, program, label_uses(program, r), context);
 }
 
 }  // namespace cnctrans::ir::passes

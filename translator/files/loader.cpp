@@ -300,12 +300,9 @@ bool Loader::open(Candidate& c) {
 bool Loader::may_hold(Candidate& c, const ir::RoutineName& name) {
   if (!open(c)) return false;
   if (c.program) return true;
-  const std::string wanted = name.text.empty() ? std::to_string(name.number) : name.text;
-  const std::string_view bytes = c.source->bytes();
-  const auto same = [](char a, char b) {
-    return (a >= 'a' && a <= 'z' ? a - 32 : a) == (b >= 'a' && b <= 'z' ? b - 32 : b);
-  };
-  return std::search(bytes.begin(), bytes.end(), wanted.begin(), wanted.end(), same) != bytes.end();
+  if (c.capitals.empty()) c.capitals = to_upper_ascii(c.source->bytes());
+  const std::string wanted = name.text.empty() ? std::to_string(name.number) : to_upper_ascii(name.text);
+  return c.capitals.find(wanted) != std::string::npos;
 }
 
 ir::Program* Loader::load(Candidate& c) {
@@ -326,8 +323,11 @@ ir::Program* Loader::load(Candidate& c) {
 
 Loader::Candidate* Loader::locate(const ir::RoutineName& name) {
   list_candidates();
-  for (auto& c : candidates_) {
-    if (may_hold(c, name) && load(c)->find(name) != nullptr) return &c;
+  for (const bool named_so : {true, false}) {  // most routines stand in a file of their name
+    for (auto& c : candidates_) {
+      const bool holds = stem_names(c.stem, name, dialect_.numbered_stem) == named_so && may_hold(c, name);
+      if (holds && load(c)->find(name) != nullptr) return &c;
+    }
   }
   for (auto& c : candidates_) {
     if (!stem_names(c.stem, name, dialect_.numbered_stem) || !open(c)) continue;

@@ -77,6 +77,7 @@ class Loader {
     Diagnostics diagnostics;  ///< of reading it
     bool unreadable = false;
     std::optional<FileId> id = {};
+    std::string capitals = {};  ///< the text, once it has been searched
   };
   void list_candidates();
   /// False: it can't be read.
