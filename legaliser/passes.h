@@ -13,9 +13,10 @@ void lower_modal_calls(Program& program, const LegaliseContext& context);  ///< 
 void lower_calls(Program& program, const LegaliseContext& context);        ///< local levels, arguments, results
 void map_variables(Program& program, const LegaliseContext& context);      ///< spaces, numbers and names of the target
 void lower_repeats(Program& program, const LegaliseContext& context);      ///< ranges in place, block repeats, counts
-void lower_control(Program& program, const LegaliseContext& context);      ///< structured statements, switches
-void lower_cycles(Program& program, const LegaliseContext& context);       ///< native or exploded, how they are modal
-void convert_frames(Program& program, const LegaliseContext& context);     ///< work offsets, programmable frame
+void lower_computed_jumps(Program& program, const LegaliseContext& context);  ///< jumps to computed labels
+void lower_control(Program& program, const LegaliseContext& context);         ///< structured statements, switches
+void lower_cycles(Program& program, const LegaliseContext& context);    ///< native or exploded, how they are modal
+void convert_frames(Program& program, const LegaliseContext& context);  ///< work offsets, programmable frame
 /// Presets that the target would keep behind the end of the program become shifts; behind all that counts from the
 /// place that a preset says.
 void shift_lasting_presets(Program& program, const LegaliseContext& context);

@@ -102,6 +102,8 @@ constexpr std::array table{
     Pass{"lower_repeats", passes::lower_repeats, PassScope::program, "Ranges in place, repeats of a block, counts."},
     Pass{"raise_structure", passes::raise_structure, PassScope::program,
          "Jumps become IF, WHILE, REPEAT and LOOP where the options ask for it."},
+    Pass{"lower_computed_jumps", passes::lower_computed_jumps, PassScope::program,
+         "Jumps to computed labels become switches where the target lacks them."},
     Pass{"lower_control", passes::lower_control, PassScope::program,
          "Structured statements and switches become jumps where the target lacks them."},
     Pass{"separate_first_moves", passes::separate_first_moves, PassScope::program,

@@ -1,6 +1,9 @@
 // Last looks: marks without a block join the next block, empty blocks that passes left over disappear.
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "legaliser/edit/blocks.h"
@@ -165,15 +168,32 @@ bool number_only(const LineInfo& line) {
          line.blank_lines_before == 0 && !line.joined;
 }
 
-/// A mark that a pass made, right before a statement with a number of its own: who went to the mark goes there.
-void lead_on(Routine& routine, Body& body, const LegaliseContext& context) {
-  const auto carriers = [&routine](const LabelRef& l) {
-    int count = 0;
-    for_each_statement(routine.body, [&](const Statement& s) {
-      for (const auto& own : labels_on(s.line)) count += same_label(own, l) ? 1 : 0;
+using LabelKey = std::pair<bool, std::string>;  ///< whether it is a number, its text
+LabelKey key_of(const LabelRef& l) {
+  return {l.is_number, l.text};
+}
+
+/// The labels of a routine, and who goes to them.
+struct RoutineLabels {
+  explicit RoutineLabels(Routine& r) {
+    for_each_statement(r.body, [this](Statement& s) {
+      for (const auto& l : labels_on(s.line)) ++lines[key_of(l)];
+      each_label_ref(s, [this](LabelRef& l, bool is_end) {
+        computed = computed || l.computed;
+        if (is_end) ends.insert(key_of(l));
+      });
     });
-    return count;
-  };
+  }
+  std::map<LabelKey, int> lines;  ///< how many have the label
+  std::set<LabelKey> ends;        ///< of ranges
+  bool computed = false;          ///< where somebody goes is known at run time only
+};
+
+/// A mark that a pass made, right before a statement with a number of its own: who went to the mark goes there.
+void lead_on(Routine& routine, const LegaliseContext& context) {
+  std::optional<RoutineLabels> labels;
+  std::map<LabelKey, LabelRef> moved;
+  Body& body = routine.body;
   for (std::size_t i = 0; i + 1 < body.size(); ++i) {
     Statement& mark = body[i];
     const LineInfo& next = body[i + 1].line;
@@ -181,23 +201,20 @@ void lead_on(Routine& routine, Body& body, const LegaliseContext& context) {
         context.source_numbers == nullptr || context.source_numbers->count(mark.line.number.data()) != 0 ||
         next.joined || next.skip_mask != 0 || std::holds_alternative<Opaque>(body[i + 1].node))
       continue;
+    if (!labels) labels.emplace(routine);
     const LabelRef old = labels_on(mark.line).front(), to = labels_on(next).front();
-    if (!to.is_number || carriers(old) != 1 || carriers(to) != 1) continue;
-    bool fixed = true, end = false;
-    for_each_statement(routine.body, [&](Statement& s) {
-      each_label_ref(s, [&](LabelRef& l, bool is_end) {
-        fixed = fixed && !l.computed;
-        end = end || (is_end && same_label(l, old));
-      });
-    });
-    if (!fixed || end) continue;
-    for_each_statement(routine.body, [&](Statement& s) {
-      each_label_ref(s, [&](LabelRef& l, bool /*is_end*/) {
-        if (same_label(l, old)) l = to;
-      });
-    });
+    const bool single = labels->lines[key_of(old)] == 1 && labels->lines[key_of(to)] == 1;
+    if (!to.is_number || !single || labels->computed || labels->ends.count(key_of(old)) != 0) continue;
+    moved.emplace(key_of(old), to);
+    labels->lines[key_of(old)] = 0;
     mark.line.number = {};  // nothing is left of it
   }
+  if (moved.empty()) return;
+  for_each_statement(body, [&moved](Statement& s) {
+    each_label_ref(s, [&moved](LabelRef& l, bool /*is_end*/) {
+      for (auto to = moved.find(key_of(l)); to != moved.end(); to = moved.find(key_of(l))) l = to->second;
+    });
+  });
 }
 
 /// A range of one routine that another one runs.
@@ -256,7 +273,7 @@ void tidy_body(Body& body, const Program& program, const LabelUses& uses, const 
 void tidy(Program& program, const LegaliseContext& context) {
   const bool calls_of_parts = names_labels_of_others(program);
   for (auto& r : program.routines) {
-    if (program.dialect != context.target.dialect && !calls_of_parts) lead_on(r, r.body, context);
+    if (program.dialect != context.target.dialect && !calls_of_parts) lead_on(r, context);
   }
   for (auto& r : program.routines) tidy_body(r.body, program, label_uses(program, r), context);
 }
