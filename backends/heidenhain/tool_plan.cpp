@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "ir/analysis/flow_states.h"
+#include "ir/edit/outside.h"
+
 namespace cnctrans::backends::heidenhain {
 
 namespace {
@@ -22,10 +25,61 @@ bool passes_by(const ir::Statement& s) {
   return o != nullptr && o->harmless;
 }
 
+/// It moves in the coordinates of the program, or does what is not at hand.
+bool may_move(const ir::Statement& s, const ir::Program& program, const ir::passes::CallGraph& calls) {
+  if (const auto* call = std::get_if<ir::CallRoutine>(&s.node)) {
+    const auto callee = call->computed ? std::nullopt : calls.index_of(call->routine);
+    return call->has_range || !callee || ir::is_outside(program.routines[*callee]);
+  }
+  if (const auto* b = std::get_if<ir::Block>(&s.node)) {
+    const bool cycle = std::any_of(b->actions.begin(), b->actions.end(),
+                                   [](const ir::Action& a) { return std::holds_alternative<ir::CycleDefine>(a.data); });
+    return cycle || (b->has_motion && b->motion.moves() && b->motion.frame == ir::FrameUse::normal);
+  }
+  const auto* o = std::get_if<ir::Opaque>(&s.node);
+  return o != nullptr && !o->harmless;
+}
+
+/// A domain of FlowStates: the words that have switched the offset off, on some way, with no other since.
+struct OffsetsOff {
+  using State = std::set<const ir::Action*>;
+  static State start(const ir::Routine& /*r*/, bool /*called*/) { return {}; }
+  static void unknown(State& /*state*/) {}
+  static bool join(State& a, const State& b) {
+    const auto size = a.size();
+    a.insert(b.begin(), b.end());
+    return a.size() != size;
+  }
+  static bool changes(const ir::Action& a) {
+    const auto* t = std::get_if<ir::ToolSelect>(&a.data);
+    return std::holds_alternative<ir::ToolOffset>(a.data) || std::holds_alternative<ir::ToolChange>(a.data) ||
+           (t != nullptr && t->changes);
+  }
+  static bool touches(const ir::Routine& r) {
+    bool found = false;
+    ir::for_each_statement(r.body, [&found](const ir::Statement& s) {
+      const auto* b = std::get_if<ir::Block>(&s.node);
+      found = found || (b != nullptr && std::any_of(b->actions.begin(), b->actions.end(), changes));
+    });
+    return found;
+  }
+  static void transfer(const ir::Statement& s, State& state) {
+    const auto* b = std::get_if<ir::Block>(&s.node);
+    if (b == nullptr) return;
+    for (const auto& a : b->actions) {
+      if (!changes(a)) continue;
+      state.clear();
+      const auto* o = std::get_if<ir::ToolOffset>(&a.data);
+      if (o != nullptr && o->number.is(0)) state.insert(&a);
+    }
+  }
+};
+
 }  // namespace
 
 ToolPlan::ToolPlan(const ir::Program& program, const LabelUse& use) : program_(program), ready_(program) {
   for (std::size_t i = 0; i < program.routines.size(); ++i) routine(i, use);
+  offsets_off();
 }
 
 const ir::ToolSelect* ToolPlan::tool_of(const ir::Action& change) const {
@@ -72,7 +126,6 @@ void ToolPlan::routine(std::size_t index, const LabelUse& use) {
                                    [](const ir::Action& a) { return std::holds_alternative<ir::CycleDefine>(a.data); });
     if (cycle || (b->has_motion && b->motion.moves())) waiting = nullptr;
   }
-  offsets_off(r.body);
 }
 
 /// The speed that the program gives before anything moves or turns.
@@ -118,24 +171,23 @@ void ToolPlan::find_speed(const ir::Body& body, std::size_t at, std::size_t acti
   }
 }
 
-/// D0: does a move follow before the next tool or offset?
-void ToolPlan::offsets_off(const ir::Body& body) {
-  const ir::Action* off = nullptr;
-  for (const auto& s : body) {
-    const auto* b = std::get_if<ir::Block>(&s.node);
-    if (b == nullptr) {
-      if (off != nullptr && !passes_by(s) && !std::holds_alternative<ir::Assign>(s.node) &&
-          !std::holds_alternative<ir::End>(s.node))
-        matters_.insert(off);
-      continue;
-    }
-    for (const auto& a : b->actions) {
-      const auto* o = std::get_if<ir::ToolOffset>(&a.data);
-      if (o != nullptr) off = o->number.is(0) ? &a : nullptr;
-      if (std::holds_alternative<ir::ToolChange>(a.data)) off = nullptr;
-    }
-    const bool moves = b->has_motion && b->motion.moves() && b->motion.frame == ir::FrameUse::normal;
-    if (off != nullptr && moves) matters_.insert(off);
+/// D0: may a move follow before the next tool or offset, on some way?
+void ToolPlan::offsets_off() {
+  const OffsetsOff domain;
+  const ir::passes::FlowStates<OffsetsOff> states(program_, domain);
+  const ir::passes::CallGraph calls(program_);
+  for (const auto& r : program_.routines) {
+    ir::for_each_statement(r.body, [&](const ir::Statement& s) {
+      const OffsetsOff::State* before = states.before(s);
+      if (before == nullptr) return;
+      OffsetsOff::State off = *before;
+      OffsetsOff::transfer(s, off);
+      if (may_move(s, program_, calls)) matters_.merge(off);
+    });
+  }
+  for (std::size_t i = 0; i < program_.routines.size(); ++i) {  // its callers are not at hand
+    const OffsetsOff::State* left = program_.routines[i].kind == ir::RoutineKind::main ? nullptr : states.behind(i);
+    if (left != nullptr && !states.called(i)) matters_.insert(left->begin(), left->end());
   }
 }
 

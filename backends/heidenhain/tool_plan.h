@@ -23,13 +23,13 @@ class ToolPlan {
   [[nodiscard]] bool speed_is_said(const ir::Action& speed) const { return said_.count(&speed) != 0; }
   /// The choice is its change as well, or the change follows before anything else happens.
   [[nodiscard]] bool said_with_change(const ir::Action& select) const { return said_.count(&select) != 0; }
-  /// No offset, and nothing moves before the next tool or offset.
+  /// No offset, and a move may follow before the next tool or offset.
   [[nodiscard]] bool offset_off_matters(const ir::Action& offset) const { return matters_.count(&offset) != 0; }
 
  private:
   void routine(std::size_t index, const LabelUse& use);
   void find_speed(const ir::Body& body, std::size_t at, std::size_t action, std::size_t routine, const LabelUse& use);
-  void offsets_off(const ir::Body& body);
+  void offsets_off();
 
   const ir::Program& program_;
   const ir::ReadyTools ready_;
