@@ -249,7 +249,10 @@ void ProgramWriter::emit_comments_before() {
 }
 
 void ProgramWriter::next_line() {
-  if (!line_open_ || line_.empty()) return;
+  if (line_open_ && !line_.empty()) rest_of_line();
+}
+
+void ProgramWriter::rest_of_line() {
   const ir::LineInfo* info = info_;
   finish_line();
   info_ = info;
@@ -258,12 +261,7 @@ void ProgramWriter::next_line() {
 }
 
 void ProgramWriter::label_line() {
-  if (!line_open_ || !first_of_source_line_ || !line_.empty() || info_->labels.empty()) return;
-  const ir::LineInfo* info = info_;
-  finish_line();
-  info_ = info;
-  line_open_ = true;
-  first_of_source_line_ = false;
+  if (line_open_ && first_of_source_line_ && line_.empty() && !info_->labels.empty()) rest_of_line();
 }
 
 void ProgramWriter::finish_line() {
@@ -347,7 +345,11 @@ void ProgramWriter::statement(const ir::Statement& s, const ir::Statement* befor
   }
   current_ = &s;
   if (s.line.joined && before != nullptr && line_open_ && !refused()) {
-    if (!joins(*before, s)) next_line();
+    if (!joins(*before, s)) {
+      next_line();
+      before_statement(s);
+      if (!line_open_) rest_of_line();
+    }
   } else if (!(s.line.joined && line_open_ && refused())) {
     begin_line(s.line);
   }

@@ -133,6 +133,7 @@ class ProgramWriter {
   /// The rest goes to a further line of the target (same skip mark; no number, labels or comments). Nothing happens
   /// while the line has no pieces.
   void next_line();
+  void rest_of_line();  ///< what is written from here on stands in a line of its own
   /// Number, labels and remarks of the source line on a line of their own; what follows stands on the next one. Without
   /// a label: nothing.
   void label_line();
