@@ -241,6 +241,8 @@ void Writer::pole_set(const ir::Action& a, const ir::PoleSet& p) {
   if (relative) return refuse("TRN-202", a.pos, "a pole given from another point has no counterpart here");
   add(std::string(g(Use::pole)), Rank::setting, a.pos);
   if (p.at && p.at->words.empty()) return add("I0 J0", Rank::setting);
+  if (p.at && p.at->words.size() == 1 && !same_dialect())
+    return refuse("TRN-316", a.pos, "along one axis this pole stays where it is, and that is not known here");
   if (p.at) plane_point(p.at->words, a.pos);
 }
 

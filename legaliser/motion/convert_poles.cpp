@@ -238,8 +238,9 @@ class PolePass {
     const auto base = from_last ? pole_ : here(facts);
     const auto at = plane_ ? place_of(p, *plane_, base, pole_, b, facts, context_.source_machine) : std::nullopt;
     before(State{at, true});
-    if (!relative) return true;
-    bool zero = true;
+    // Along an axis without a word the pole stays where it is; not every target says it so.
+    if (!relative && !(at && p.at && p.at->words.size() == 1)) return true;
+    bool zero = relative;
     for (const auto& w : p.at->words) zero = zero && w.value.is(0);
     const auto f = factors(b, facts, Distance::absolute);
     if (!from_last && zero) {
