@@ -51,6 +51,13 @@ bool ArcPass::stays_closed(const Arc& arc) const {
   return length(ends.end - ends.start) <= 1e-9;
 }
 
+bool ArcPass::loses_start(const Arc& arc) const {
+  const auto& coords = arc.b.motion.coords;
+  const bool ends = std::any_of(coords.begin(), coords.end(),
+                                [&arc](const CoordWord& c) { return c.axis == arc.axis[0] || c.axis == arc.axis[1]; });
+  return context_.target.full_circle_needs_end && !ends && known(arc.start) && known(arc.end) && !stays_closed(arc);
+}
+
 bool ArcPass::keep_closed(Arc& arc) {
   Motion& m = arc.b.motion;
   const auto center = center_point(arc);

@@ -366,8 +366,7 @@ void ArcPass::both_ends(Arc& arc, bool needed) {
   const bool u = missing(arc.axis[0]), v = missing(arc.axis[1]);
   if ((!u && !v) || (!needed && u && v)) return;
   const auto unknown = [&](AxisId axis) { return missing(axis) && !start_of(arc, axis); };
-  const bool rounded = u && v && known(arc.start) && known(arc.end) && !stays_closed(arc);
-  if ((rounded || unknown(arc.axis[0]) || unknown(arc.axis[1])) && by_increments(arc)) return;
+  if ((loses_start(arc) || unknown(arc.axis[0]) || unknown(arc.axis[1])) && by_increments(arc)) return;
   const auto other = std::find_if(coords.begin(), coords.end(), [&arc](const CoordWord& w) {
     return w.axis == arc.axis[0] || w.axis == arc.axis[1];
   });

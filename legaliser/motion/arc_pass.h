@@ -171,6 +171,8 @@ class ArcPass {
   };
   [[nodiscard]] Ends on_target(const Arc& arc) const;
   [[nodiscard]] bool stays_closed(const Arc& arc) const;  ///< of a full circle: both are one point
+  /// A full circle without a word of its end, which would be another point than its start when it is written.
+  [[nodiscard]] bool loses_start(const Arc& arc) const;
   /// A full circle, or nearly one, that the target's own start and rounded end would make short: its end is said as
   /// its start, whatever that is. False: it is none.
   bool keep_closed(Arc& arc);
@@ -293,7 +295,8 @@ class ArcPass {
     }
     if (!whole) {
       const auto to = wanted_mode(arc, from);
-      if (to == CenterMode::follows_distance && steps_from_unknown(arc) && by_increments(arc)) return;
+      const bool steps = steps_from_unknown(arc) || loses_start(arc);
+      if (to == CenterMode::follows_distance && steps && by_increments(arc)) return;
       if (!to || !convert_centers(arc, from, *to)) {
         if (by_increments(arc)) return;
         return fail(arc, "TRN-313",
