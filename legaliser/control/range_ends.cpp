@@ -201,7 +201,7 @@ class RangeEnds {
   void refuse_broken_parts() {
     struct Place {
       const Body* body = nullptr;
-      std::size_t at = 0;
+      std::size_t at = 0, end = 0;  ///< lines: its own, and the last one inside of it
     };
     std::map<std::pair<bool, std::string>, Place> places;
     struct Part {
@@ -213,14 +213,16 @@ class RangeEnds {
     std::size_t n = 0;
     const std::function<void(Body&)> look = [&](Body& body) {
       for (auto& s : body) {
-        ++n;
-        for (const auto& l : labels_on(s.line)) places.emplace(std::make_pair(l.is_number, l.text), Place{&body, n});
+        if (!s.line.joined) ++n;
+        const auto at = n;
         if (const auto* r = std::get_if<Repeat>(&s.node); r != nullptr && !r->has_program)
           parts.push_back({&s, n, &r->first, &r->last});
         if (const auto* c = std::get_if<CallRoutine>(&s.node);
             c != nullptr && c->has_range && !c->computed && program_.find(c->routine) == &routine_)
           parts.push_back({&s, n, &c->first, &c->last});
         each_body(s, look);
+        for (const auto& l : labels_on(s.line))
+          places.emplace(std::make_pair(l.is_number, l.text), Place{&body, at, n});
       }
     };
     look(routine_.body);
@@ -229,7 +231,7 @@ class RangeEnds {
       const auto first = places.find({from->is_number, from->text}), last = places.find({to->is_number, to->text});
       if (first == places.end() || last == places.end()) continue;
       const bool broken = first->second.body != last->second.body;
-      const bool itself = at > first->second.at && at < last->second.at;
+      const bool itself = at >= first->second.at && at <= last->second.end;
       if (!broken && !itself) continue;
       refuse(*s, program_, editor_.context, "TRN-163",
              broken ? "the repeated part begins or ends in a branch or loop that it does not begin and end in"
