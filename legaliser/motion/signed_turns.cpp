@@ -58,18 +58,15 @@ class SignedTurns {
   }
 
   void warn(const Statement& s, const CoordWord& c) {
-    if (told_) return;
-    told_ = true;
     context_.diagnostics.warning("TRN-552", word_span(s.line.span, c.pos),
                                  "on the target a position without a sign is reached in the positive direction; where "
-                                 "the rotary axis stands before is not known here (said once a program)",
+                                 "the rotary axis stands before is not known here",
                                  "check the direction on the machine, or turn the axis to a known position before");
   }
 
   const LegaliseContext& context_;
   const FactsOf facts_;
   std::string letters_;
-  bool told_ = false;
 };
 
 }  // namespace

@@ -52,11 +52,7 @@ struct Narrow {
 };
 constexpr std::array<Narrow, 3> narrow = {{{"TRN-159", "feed"}, {"TRN-392", ""}, {"TRN-394", ""}}};
 /// Said once for all moves up to the next word of an offset, or once for the program.
-constexpr std::array<Narrow, 5> lasting = {{{"TRN-522", "tool offset"},
-                                            {"TRN-210", "feed"},
-                                            {"TRN-552", "move: A#"},
-                                            {"TRN-552", "move: B#"},
-                                            {"TRN-552", "move: C#"}}};
+constexpr std::array<Narrow, 2> lasting = {{{"TRN-522", "tool offset"}, {"TRN-210", "feed"}}};
 
 /// A word D stands behind line `from` (counted from 1), at `to` or before, and no switch leaves it out.
 bool has_offset_word(const Program& p, std::uint32_t from, std::uint32_t to) {
