@@ -145,6 +145,7 @@ struct Capabilities {
   std::set<FrameUse> frame_uses = {FrameUse::normal};
   std::set<CornerKind> corners;
   bool motion_in_each_block = false;  ///< no motion code stays in force
+  bool thread_stays = true;           ///< that of a thread does
   bool corner_modal = false;          ///< a corner function that stays in force
   bool corner_feed = false;           ///< a feed of the corner's own
   bool polar = false, line_angle = false;

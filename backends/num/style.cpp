@@ -106,6 +106,7 @@ ir::Capabilities make_capabilities(bool lathe, bool later, bool structured) {
   c.line_angle = true;
   if (lathe) c.motions.insert(ir::MotionKind::thread);
   c.full_circle_needs_end = true;
+  c.thread_stays = false;
   c.center_scales[ir::CenterMode::follows_distance] = ir::WordScale::modal;
   c.diameter_switch = false;
   c.fixed_diameter = lathe ? ir::DiameterMode::diameter : ir::DiameterMode::radius;

@@ -24,12 +24,18 @@ enum class Step : std::uint8_t {
   apart    ///< another one may stand in the text
 };
 
+/// The code of the move stays in force in the written text as it does in the source.
+bool stays(const Motion& m, const Capabilities& target) {
+  return m.keeps_modal && (m.kind != MotionKind::thread || target.thread_stays);
+}
+
 /// A domain of FlowStates.
 class Steps {
  public:
   using State = Step;
   Steps(const Program& program, const LegaliseContext& context, const FactsOf& facts)
       : facts_(facts),
+        target_(context.target),
         rapid_points_(context.target_machine.policies.cycle_positioning == machine::CyclePositioning::rapid),
         rapid_at_holes_(context.target.retract_plane_switch) {
     for (const auto& r : program.routines) {
@@ -69,7 +75,8 @@ class Steps {
         b->motion.kind == MotionKind::rapid && !b->motion.keeps_modal)
       return;  // reached without a code
     if (b->has_motion && b->motion.kind != MotionKind::modal)
-      state = b->motion.keeps_modal || facts.motion == b->motion.kind ? Step::same : Step::apart;
+      state = stays(b->motion, target_) || (facts.motion == b->motion.kind && !b->motion.keeps_modal) ? Step::same
+                                                                                                      : Step::apart;
     else if (b->has_motion && b->motion.moves() && !(point && rapid_points_))
       state = Step::same;
     if (rapid_at_holes_ && point && (b->has_motion || action_in<CycleDefine>(*b) != nullptr) &&
@@ -116,6 +123,7 @@ class Steps {
   }
 
   const FactsOf& facts_;
+  const Capabilities& target_;
   bool rapid_points_, rapid_at_holes_;
   std::set<std::uint32_t> heads_;
   std::set<std::size_t> said_before_;  ///< routines whose calls say the code before them
@@ -211,13 +219,13 @@ class MotionCodes {
 };
 
 /// Some move leaves another code in the text than the one in force, and some routine is called.
-bool may_part(const Program& program) {
+bool may_part(const Program& program, const Capabilities& target) {
   bool once = false, called = false;
   for (const auto& r : program.routines) {
     for_each_statement(r.body, [&](const Statement& s) {
       const auto* b = std::get_if<Block>(&s.node);
       once = once ||
-             (b != nullptr && ((b->has_motion && !b->motion.keeps_modal) || action_in<CycleDefine>(*b) != nullptr));
+             (b != nullptr && ((b->has_motion && !stays(b->motion, target)) || action_in<CycleDefine>(*b) != nullptr));
       const auto* p = std::get_if<Repeat>(&s.node);
       called = called || std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<ModalCall>(s.node) ||
                (p != nullptr && p->has_program);
@@ -229,7 +237,7 @@ bool may_part(const Program& program) {
 }  // namespace
 
 void say_motion_codes(Program& program, const LegaliseContext& context) {
-  if (program.dialect == context.target.dialect || !may_part(program)) return;
+  if (program.dialect == context.target.dialect || !may_part(program, context.target)) return;
   MotionCodes(program, context).run();
 }
 
