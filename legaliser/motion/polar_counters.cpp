@@ -147,21 +147,31 @@ class PolarCounters {
     for (auto& r : program_.routines) {
       const LabelUses uses = label_uses(program_, r);
       std::uint32_t last = 0;
-      bool loop = false;
+      bool loop = false, said = true;
       for_each_statement(r.body, [&](const Statement& s) {
         const auto labels = labels_on(s.line);
         loop = loop || uses.computed || is_loop(s) ||
                std::any_of(labels.begin(), labels.end(), [&](const LabelRef& l) { return uses.is_target(l); });
         if (counts_on(s, facts.before(s))) {
-          if (loop) starts_.insert(last);
+          if (loop && (said || !takes_radius_over(s, facts.before(s)))) starts_.insert(last);
         } else if (leaves_place(s, facts.before(s))) {
           last = s.id;
+          const auto* b = std::get_if<Block>(&s.node);
+          said = b != nullptr && b->motion.extra && b->motion.extra->has_polar_radius;
           loop = false;
         }
       });
     }
     starts_.erase(0);
     return !starts_.empty();
+  }
+
+  /// The radius of the step is the one that was said last, which is not the distance of a point said otherwise.
+  [[nodiscard]] bool takes_radius_over(const Statement& s, const Facts& facts) const {
+    const auto& b = std::get<Block>(s.node);
+    const auto modes = polar_modes(*b.motion.extra, setting_in<Distance>(b, facts, Setting::distance));
+    return context_.source_machine.policies.polar_radius == machine::PolarRadius::programmed && is_step(s, facts) &&
+           (!b.motion.extra->has_polar_radius || modes.adds_radius);
   }
 
   void mark(Body& body) {
