@@ -34,7 +34,10 @@ bool corner_at_feed(const Action& a) {
 bool feeds_itself(const Cycle& c) {
   const auto* hole = std::get_if<HoleCycle>(&c.node);
   if (hole != nullptr && hole->kind == HoleKind::tap && !hole->pitch.is(0)) return true;
-  return hole == nullptr || hole->has_feed;
+  if (hole != nullptr) return hole->has_feed;
+  // The axial drilling cycle of a lathe, and its tap: at the feed in force.
+  const auto* named = std::get_if<NamedCycle>(&c.node);
+  return named == nullptr || named->name != "turn.drill";
 }
 
 }  // namespace
