@@ -1,8 +1,10 @@
 #include "legaliser/technology/tool_lengths.h"
 
+#include <set>
 #include <string>
 
 #include "base/text.h"
+#include "ir/analysis/call_graph.h"
 #include "legaliser/edit/blocks.h"
 #include "legaliser/passes.h"
 
@@ -41,20 +43,43 @@ std::string bare_offset(const machine::Profile& machine) {
                                               : "the offset in force before, or none";
 }
 
-/// Warns once a program, where a tool without a D is used.
-void check_bare_tools(const Program& program, const LegaliseContext& context) {
-  bool said = false;
-  for (const auto& r : program.routines) {
-    BareTool tool(context.source_machine, r.kind != RoutineKind::main);
-    for_each_statement(r.body, [&](const Statement& s) {
-      const auto* b = std::get_if<Block>(&s.node);
-      if (std::holds_alternative<CallRoutine>(s.node) || std::holds_alternative<Opaque>(s.node)) tool.forget();
-      if (said || b == nullptr || !tool.follow(*b, s.line)) return;
-      said = true;
-      tool.tell(context);
-    });
+/// Warns once a program, where a tool without a D is used. Calls are followed in the order of the text.
+class BareTools {
+ public:
+  BareTools(const Program& program, const LegaliseContext& context)
+      : program_(program), context_(context), calls_(program) {
+    for (const auto& r : program.routines) {
+      BareTool tool(context.source_machine, r.kind != RoutineKind::main);
+      follow(r, tool);
+    }
   }
-}
+
+ private:
+  void follow(const Routine& r, BareTool& tool) {
+    open_.insert(&r);
+    for_each_statement(r.body, [&](const Statement& s) {
+      if (told_) return;
+      if (std::holds_alternative<Opaque>(s.node)) tool.forget();
+      if (const auto* call = std::get_if<CallRoutine>(&s.node)) return called(*call, tool);
+      const auto* b = std::get_if<Block>(&s.node);
+      if (b == nullptr || !tool.follow(*b, s.line)) return;
+      told_ = true;
+      tool.tell(context_);
+    });
+    open_.erase(&r);
+  }
+  void called(const CallRoutine& call, BareTool& tool) {
+    const auto callee = call.computed || call.has_range ? std::nullopt : calls_.index_of(call.routine);
+    if (!callee || !tool.waits() || open_.count(&program_.routines[*callee]) != 0) return tool.forget();
+    follow(program_.routines[*callee], tool);
+  }
+
+  const Program& program_;
+  const LegaliseContext& context_;
+  const CallGraph calls_;
+  std::set<const Routine*> open_;
+  bool told_ = false;
+};
 
 /// Warns once a program, at the first other plane.
 void check_planes(const Program& program, const LegaliseContext& context) {
@@ -97,7 +122,7 @@ void BareTool::tell(const LegaliseContext& context) const {
 
 void check_tool_lengths(Program& program, const LegaliseContext& context) {
   if (program.dialect == context.target.dialect) return;
-  if (bare_offsets_differ(context.source_machine, context.target_machine)) check_bare_tools(program, context);
+  if (bare_offsets_differ(context.source_machine, context.target_machine)) BareTools(program, context);
   if (length_axes_differ(context.source_machine, context.target_machine)) check_planes(program, context);
 }
 

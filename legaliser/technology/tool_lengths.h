@@ -27,6 +27,8 @@ class BareTool {
       : keeps_(source.policies.tool_bare_offset == machine::ToolBareOffset::kept), chosen_(chosen) {}
   /// \return a move uses such a tool, for the first time
   bool follow(const Block& block, const LineInfo& line);
+  /// A tool has come without one.
+  [[nodiscard]] bool waits() const { return waiting_; }
   /// The D may have been given where it can't be seen.
   void forget() {
     waiting_ = false;
