@@ -221,11 +221,14 @@ class ModalCalls {
     if (!active_ && !own_feed) return out.push_back(std::move(s));
     const CallRoutine call = active_ ? *active_ : on_target_->call;
     if (guessed) error = "it begins at the end that is nearer to the tool, and where the tool stands is not known here";
-    const auto feed = facts_.before(s).feed;
+    const Facts& now = facts_.before(s);
+    const auto feed = now.feed;
     if (blocks && arcs_from_elsewhere(*blocks, program_, calls_, call, facts_)) {
       error = "the tool goes from point to point along arcs, and the modal subprogram leaves it elsewhere";
     }
-    if (own_feed && (!feed || !leaves_feed(program_, calls_, call, *feed))) {
+    if (own_feed && (now.cycle_active || !now.cycle_active_known)) {
+      error = "the tool goes from point to point at a feed of the pattern's own, and a cycle may run there as well";
+    } else if (own_feed && (!feed || !leaves_feed(program_, calls_, call, *feed))) {
       error = "the tool goes from point to point at a feed of the pattern's own, and the feed behind it is not known";
     } else if (own_feed && !active_ && !fixed_arguments(call)) {
       error = "the arguments of the modal subprogram are computed";
@@ -286,10 +289,6 @@ class ModalCalls {
     ModalCall off;
     off.off = true;
     return off;
-  }
-  static bool fixed_arguments(const CallRoutine& call) {
-    return std::all_of(call.arguments.begin(), call.arguments.end(),
-                       [](const Argument& a) { return !a.by_reference && (!a.value || constant_value(a.value)); });
   }
 
   /// A block with its call behind it; a repeat count repeats both.

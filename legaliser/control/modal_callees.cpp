@@ -64,6 +64,11 @@ bool changes_modal_calls(const Program& program, const CallGraph& calls, const C
   return any_below(program, calls, call, [](const Statement& s) { return std::holds_alternative<ModalCall>(s.node); });
 }
 
+bool fixed_arguments(const CallRoutine& call) {
+  return std::all_of(call.arguments.begin(), call.arguments.end(),
+                     [](const Argument& a) { return !a.by_reference && (!a.value || constant_value(a.value)); });
+}
+
 bool defines_cycle(const Program& program, const CallGraph& calls, const CallRoutine& call) {
   return any_below(program, calls, call, [](const Statement& s) {
     const auto* b = std::get_if<Block>(&s.node);

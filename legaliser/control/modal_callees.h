@@ -16,6 +16,8 @@ bool starts_modal_calls(const Program& program);
 bool has_modal_call(const Routine& r);
 /// The called routine, or one below it, does so.
 bool changes_modal_calls(const Program& program, const CallGraph& calls, const CallRoutine& call);
+/// Its arguments are the same wherever it stands.
+bool fixed_arguments(const CallRoutine& call);
 /// It, or one below it, defines a cycle.
 bool defines_cycle(const Program& program, const CallGraph& calls, const CallRoutine& call);
 /// It, or one below it, moves, goes to the points of a pattern, or calls what is not at hand.
