@@ -97,6 +97,17 @@ bool spindle_before_change(const Block& b, const LegaliseContext& context) {
                      [](const Action& a) { return std::holds_alternative<SpindleRun>(a.data) && !is_after(a.order); });
 }
 
+/// A speed beside the stop of its spindle, which the source stops at once and the target behind the block: there the
+/// spindle would turn at that speed first.
+bool waits_for_stop(const Action& a, const std::vector<Action>& all, const LegaliseContext& context) {
+  const auto* speed = std::get_if<SetSpindle>(&a.data);
+  return speed != nullptr && !is_after(a.order) && std::any_of(all.begin(), all.end(), [&](const Action& x) {
+           const auto* run = std::get_if<SpindleRun>(&x.data);
+           return run != nullptr && run->state == SpindleState::off && run->number == speed->number &&
+                  !is_after(x.order) && is_after(target_order(x, context.target_machine));
+         });
+}
+
 class BlockSplitter {
  public:
   BlockSplitter(Editor& editor, Statement&& s) : editor_(editor), main_(std::move(s)) {}
@@ -202,8 +213,12 @@ class BlockSplitter {
       }
       block.push_back(std::move(a));
     };
+    const std::vector<Action> all = actions;
+    const auto late = std::stable_partition(actions.begin(), actions.end(),
+                                            [&](const Action& a) { return !waits_for_stop(a, all, editor_.context); });
     for (auto at = actions.begin(); at != actions.end(); ++at) {
       Action& a = *at;
+      if (at == late) cut();
       if (std::any_of(std::next(at), actions.end(), [&a](const Action& later) {
             const auto* run = std::get_if<SpindleRun>(&later.data);
             return run != nullptr && run->state != SpindleState::off && says_speed(a, run->number);
@@ -250,6 +265,7 @@ bool needs_split(const Block& block, const Program& program, const LegaliseConte
     if (own_block(a, context.target)) alone = true;
     if (apart_from_dwell(block.actions, a, context.target)) return true;
     if (moving && mode_leaves(a, program, context.target)) return true;
+    if (waits_for_stop(a, block.actions, context)) return true;
     if (!makes_event(a)) continue;
     const bool theirs = is_after(target_order(a, context.target_machine));
     if (moving && theirs != is_after(a.order)) return true;
