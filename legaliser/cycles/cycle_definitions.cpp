@@ -125,8 +125,13 @@ void CyclePass::define_by_words(Statement&& s, const CycleDefine& d, Active&& a,
            "write the plane before it on every path");
     return out.push_back(std::move(s));
   }
-  if (d.modal && rises_first(a, b, facts)) {
-    rise_and_define(std::move(s), a, true, std::move(pieces), out);
+  Active rising = a;
+  rising.native = native.cycle;
+  if (rises_first(rising, b, facts) && (!leave || late_.empty())) {
+    const LineInfo like = s.line;
+    rise_and_define(std::move(s), rising, d.modal, std::move(pieces), out);
+    if (leave) out.push_back(made(like, straight_move(MotionKind::rapid, *w, *leave)));
+    if (!d.modal) return;
     a.on_target = a.was_on_target = true;
     active_ = std::move(a);
     return;

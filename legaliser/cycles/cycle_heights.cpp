@@ -230,11 +230,12 @@ void CyclePass::rise_and_define(Statement&& s, const Active& a, bool modal, Body
     pieces.push_back(std::move(s));
     pieces.push_back(made(like, std::move(up)));
   }
-  Statement define = make_block(like, action(CycleDefine{a.native, modal, true, CycleTrigger::plane_axis_word}));
-  auto& words = std::get<Block>(define.node);
-  if (apart) words.actions.insert(words.actions.begin(), distance_set(Distance::absolute));
+  Block words;
+  if (apart) words.actions.push_back(distance_set(Distance::absolute));
   feed_for_tap(words, a);
-  pieces.push_back(std::move(define));
+  words.actions.push_back(action(CycleDefine{a.native, modal, true, CycleTrigger::plane_axis_word}));
+  if (const auto feed = feed_after_tap(a, facts); feed && !modal) then_.push_back(*feed);
+  pieces.push_back(made(like, std::move(words)));
   if (apart) pieces.push_back(make_block(like, distance_set(Distance::incremental)));
   put_group(out, std::move(pieces), main);
 }

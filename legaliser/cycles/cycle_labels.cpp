@@ -25,6 +25,13 @@ void CyclePass::note_end(const std::vector<LabelRef>& labels, const Statement* w
   }
 }
 
+void CyclePass::perhaps_skipped(const Active& before) {
+  if (by_call_) return;
+  const bool either = active_->on_target || active_->maybe_on_target || before.on_target || before.maybe_on_target;
+  active_->on_target = active_->on_target && before.on_target;
+  active_->maybe_on_target = either && !active_->on_target;
+}
+
 void CyclePass::behind_range(const Statement& s) {
   const auto* r = std::get_if<Repeat>(&s.node);
   if (r == nullptr || by_call_ || r->has_program || r->last.computed) return;

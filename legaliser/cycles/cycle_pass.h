@@ -95,14 +95,7 @@ class CyclePass {
     std::optional<double> height;
   };
 
-  void walk(Body& body, Body& out) {
-    out.reserve(body.size());
-    for (auto& s : body) {
-      bodies(s);
-      rest_ = {&s + 1, body.data() + body.size()};
-      one(std::move(s), out);
-    }
-  }
+  void walk(Body& body, Body& out);
   void bodies(Statement& s);
   [[nodiscard]] bool begins_with_point(const Body& body) const;  ///< nothing moves or calls before it
   void walk_inside(Body& inner) {
@@ -135,7 +128,7 @@ class CyclePass {
   void leave_off() const;
   /// F, S or a motion code alone under a cycle by call of another program part: it runs there in the source alone.
   [[nodiscard]] bool path_word_under_call(const Block& b, const Facts& facts) const;
-  /// The block is a point of whichever hole cycle may be in force: its moves are not along the tool alone.
+  /// The block is a point of whichever hole cycle may be in force: not along the tool alone, or modal calls run there.
   [[nodiscard]] bool may_be_point(const Block& b, const Facts& facts) const;
   /// A block or a call under a cycle that another routine defines, perhaps.
   void note_foreign(const Statement& s, const Facts& facts) const;
@@ -165,8 +158,9 @@ class CyclePass {
 
   void leave(Statement& s);
   void note_end(const std::vector<LabelRef>& labels, const Statement* written);  ///< of a repeated range, perhaps
-  void behind_range(const Statement& s);   ///< a repeat leaves the cycle as the end of its range does
-  void end_elsewhere(const Statement& s);  ///< a subprogram has ended the cycle, on every way
+  void perhaps_skipped(const Active& before);  ///< a switch may leave the statement out that came behind this state
+  void behind_range(const Statement& s);       ///< a repeat leaves the cycle as the end of its range does
+  void end_elsewhere(const Statement& s);      ///< a subprogram has ended the cycle, on every way
   void one(Statement&& s, Body& out) {
     end_elsewhere(s);
     join(s);
@@ -181,7 +175,9 @@ class CyclePass {
     branch_before_first_point(s);
     const bool moved = moves_coordinates(s);
     const auto labels = labels_on(s.line);
+    const auto skipped = s.line.skip_mask != 0 ? active_ : std::nullopt;
     lower(std::move(s), out);
+    if (skipped && active_) perhaps_skipped(*skipped);
     note_end(labels, out.size() > first ? &out.back() : nullptr);
     late_.clear();  // of a refused block
     then_.clear();
@@ -483,8 +479,9 @@ class CyclePass {
   std::set<std::uint32_t> definitions_;                    ///< statements of this routine
   bool has_modal_calls_ = false, calls_anywhere_ = false;  ///< of cycles; in the program
   bool plane_words_ = false;                               ///< the program has G98 or G99
-  bool enters_unsure_ = false;                             ///< the callers do not agree on a cycle
-  std::vector<Span> unsure_;                               ///< points of a cycle by call that depend on the way
+  bool enters_unsure_ = false;  ///< the callers do not agree on a cycle, and nothing here has begun or ended one yet
+  std::optional<Span> falls_;   ///< the last line, where the routine ends without a return
+  std::vector<Span> unsure_;    ///< points of a cycle by call that depend on the way
   std::optional<Active> active_;
   std::vector<Action> late_;   ///< of the block at hand, behind the hole
   std::vector<Action> then_;   ///< made by the pass: in a block of its own behind the hole

@@ -28,7 +28,11 @@ void CyclePass::pattern(Statement&& s, const CycleDefine& d, Body&& pieces, Body
   }
   std::string error;
   bool guessed = false;
-  auto points = pattern_blocks(named, s.line, b, facts, &guessed, &error);
+  const auto w = active_ ? tool_axis(active_->source, b, facts) : std::nullopt;
+  const auto plane = setting_in<Plane>(b, facts, Setting::plane);
+  if (w && plane && *w != plane_axes(*plane).w) error = "its points lie along the axis of the tool, not across it";
+  const bool across = error.empty();
+  auto points = across ? pattern_blocks(named, s.line, b, facts, &guessed, &error) : std::nullopt;
   if (!points && error.empty()) {
     if (auto loop = pattern_loop(named, s.line, b, facts, editor_, &error)) {
       if (loop->guessed) tell_guessed_row(s);

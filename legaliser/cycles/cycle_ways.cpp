@@ -7,8 +7,12 @@
 namespace cnctrans::ir::passes {
 
 void CyclePass::look_for_definitions() {
+  const Body& body = editor_.routine.body;
+  if (!body.empty() && !std::holds_alternative<Return>(body.back().node) &&
+      !std::holds_alternative<End>(body.back().node))
+    falls_ = body.back().line.span;
   const Statement* first = nullptr;
-  for_each_statement(editor_.routine.body, [&](const Statement& s) {
+  for_each_statement(body, [&](const Statement& s) {
     if (first == nullptr) first = &s;
     if (const auto* m = std::get_if<ModalCall>(&s.node); m != nullptr && m->cycle) {
       definitions_.insert(s.id);
@@ -55,6 +59,10 @@ bool CyclePass::refuse_unknown_plane(Statement& s, const CyclePtr& cycle, Body& 
 
 void CyclePass::end_elsewhere(const Statement& s) {
   const Facts& facts = facts_.before(s);
+  const auto* b = std::get_if<Block>(&s.node);
+  const bool own = b != nullptr ? definitions_.count(s.id) != 0 || action_in<CycleCancel>(*b) != nullptr
+                                : std::holds_alternative<ModalCall>(s.node);
+  if (own) enters_unsure_ = false;
   if (!active_ || surely_active_ || !facts.reachable || !facts.cycle_active_known || facts.cycle_active) return;
   leave_off();  // a jump may have taken it to the end of the routine
   active_.reset();
@@ -261,9 +269,9 @@ void refuse_foreign_cycles(const CycleCallees& callees, const LegaliseContext& c
   for (const auto& [routine, where] : callees.disturbed) {
     if (callees.entered.count(routine) != 0 && std::find(refused.begin(), refused.end(), where) == refused.end())
       context.diagnostics.error("TRN-331", where,
-                                "the subprogram is called while a cycle may still be in force, and the target's would "
-                                "make another move or hole of this block",
-                                "cancel the cycle before the call");
+                                "a cycle that another part of the program defines may be active here, and the target's "
+                                "would make another move or hole of this block",
+                                "cancel the cycle before the call, or before this block");
   }
 }
 
@@ -277,7 +285,8 @@ bool CyclePass::may_be_point(const Block& b, const Facts& facts) const {
   if (pattern_in(b) != nullptr) return true;
   if (!b.has_motion || !b.motion.moves() || b.motion.frame != FrameUse::normal) return false;
   const auto plane = setting_in<Plane>(b, facts, Setting::plane);
-  return !plane || has_plane_word(b, plane_axes(*plane).w) || turns_to_point(b, context_.source_machine);
+  return (calls_anywhere_ && !by_call_) || !plane || has_plane_word(b, plane_axes(*plane).w) ||
+         turns_to_point(b, context_.source_machine);
 }
 
 void CyclePass::note_foreign(const Statement& s, const Facts& facts) const {
@@ -300,6 +309,7 @@ void CyclePass::note_foreign(const Statement& s, const Facts& facts) const {
   if (feed) callees_.feeds.emplace_back(s.line.span, facts.cycle_from);
   const bool moves = b->has_motion && b->motion.moves() && b->motion.frame == FrameUse::normal;
   if (active_ || (by_call_ ? point || !(moves || disturbs_call(*b)) : !point || bare_point(*b, facts))) return;
+  if (editor_.routine.kind == RoutineKind::main) callees_.entered.insert(here);  // one that a subprogram has left
   if (here < program_.routines.size()) callees_.disturbed.emplace_back(here, s.line.span);
 }
 
@@ -392,11 +402,8 @@ void CyclePass::callee_sets_plane(const CallRoutine& call, const Statement& s) c
 }
 
 void CyclePass::report_unsure() const {
-  const bool falls = !editor_.routine.body.empty() &&
-                     !std::holds_alternative<Return>(editor_.routine.body.back().node) &&
-                     !std::holds_alternative<End>(editor_.routine.body.back().node);
-  if (falls) leave_off();
-  if (falls && gives_back(true)) refuse_given_back(editor_.routine.body.back().line.span, context_);
+  if (falls_) leave_off();
+  if (falls_ && gives_back(true)) refuse_given_back(*falls_, context_);
   if (!lacking_) return;
   for (const Span& where : unsure_) {
     context_.diagnostics.error(

@@ -16,6 +16,15 @@
 
 namespace cnctrans::ir::passes {
 
+void CyclePass::walk(Body& body, Body& out) {
+  out.reserve(body.size());
+  for (auto& s : body) {
+    bodies(s);
+    rest_ = {&s + 1, body.data() + body.size()};
+    one(std::move(s), out);
+  }
+}
+
 void CyclePass::point(Statement&& s, Body&& pieces, Body& out) {
   check_tap(s);
   auto& b = std::get<Block>(s.node);
@@ -162,6 +171,10 @@ void CyclePass::run_once(Statement&& s, Body&& pieces, bool apart, Body& out) {
   auto& b = std::get<Block>(s.node);
   const Facts& facts = facts_.before(s);
   if (active_->on_target) pieces.push_back(off_statement(like, false));
+  if (active_->on_target && active_->needs.feed && way_to_hole(b, facts, context_) != MotionKind::rapid) {
+    tap_feed_ = true;  // the way has the feed of before
+    feed_comes_back(s, b, facts);
+  }
   active_->on_target = false;
   position_rapid(b, context_);
   const std::size_t main = pieces.size();
