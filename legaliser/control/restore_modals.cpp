@@ -289,7 +289,13 @@ class Restore {
 void restore_modals(Program& program, const LegaliseContext& context) {
   const bool saves =
       std::any_of(program.routines.begin(), program.routines.end(), [](const Routine& r) { return r.saves_modals; });
-  if (saves && !context.target_machine.policies.call_saves_modals) Restore(program, context).run();
+  if (!saves || context.target_machine.policies.call_saves_modals) return;
+  // A replay sees a line that a switch leaves out only where it is carried out: the state at the head is asked before.
+  for (auto& r : program.routines) {
+    if (r.saves_modals && !r.body.empty() && r.body.front().line.skip_mask != 0)
+      r.body.insert(r.body.begin(), made(LineInfo{}, Label{}));
+  }
+  Restore(program, context).run();
 }
 
 }  // namespace cnctrans::ir::passes
