@@ -18,12 +18,14 @@ const T* action_of(const ir::Block& b) {
   return nullptr;
 }
 
-/// The cycle of the block that runs with a feed of its own, which is that of its way out too.
+/// The cycle of the block that runs with a feed of its own, which is that of its way out too. Boring that frees the tip
+/// goes out in rapid where it names no feed: that feed stays.
 const ir::HoleCycle* cycle_with_feed(const ir::Block& b) {
   const auto* define = action_of<ir::CycleDefine>(b);
   const auto* hole = define == nullptr ? nullptr : std::get_if<ir::HoleCycle>(&define->cycle->node);
   if (hole == nullptr || hole->kind == ir::HoleKind::mill || !hole->has_feed || !hole->feed.literal()) return nullptr;
-  return !hole->has_feed_out || ir::equal(hole->feed, hole->feed_out) ? hole : nullptr;
+  if (!hole->has_feed_out) return hole;
+  return hole->kind != ir::HoleKind::bore_shift && ir::equal(hole->feed, hole->feed_out) ? hole : nullptr;
 }
 
 void without_feed(ir::Block& b) {
