@@ -99,7 +99,7 @@ void WordLowering::tool_frame(const GFunction& g, WordPos pos) {
   const auto add = [&](std::shared_ptr<const ir::FrameChange> change) {
     push(ir::FrameOp{std::move(change)}, Rank::setting, ir::Order::before, pos);
   };
-  push(ir::OpaqueWord{c_.slice(pos)}, Rank::setting, ir::Order::before, pos);
+  push(ir::OpaqueWord{c_.slice(pos)}, Rank::setting, ir::Order::after, pos);
   if (ends) {
     add(cleared(ir::FrameSlot::shift));
     add(cleared(ir::FrameSlot::rotation));
@@ -183,7 +183,6 @@ void WordLowering::table_frame(WordPos pos) {
 bool StatementLowering::swivel_end(WordPos pos, Parts& parts) {
   if (!c_.tool_frame) return without_effect("CYCLE800", pos, parts);
   const auto add = [&](ir::ActionData data) { parts.act(std::move(data), pos, c_.slice(pos)); };
-  add(ir::OpaqueWord{c_.slice(pos)});
   add(ir::FrameOp{cleared(ir::FrameSlot::shift)});
   add(ir::FrameOp{cleared(ir::FrameSlot::rotation)});
   c_.tool_frame = false;
@@ -191,7 +190,8 @@ bool StatementLowering::swivel_end(WordPos pos, Parts& parts) {
 }
 
 /// CYCLE800(FR,TC,ST,MODE,X0,Y0,Z0,A,B,C,X1,Y1,Z1,DIR,..), axis by axis: shift to X0 Y0 Z0, the three turns, each about
-/// the new axes, shift by X1 Y1 Z1 in the turned coordinates.
+/// the new axes, shift by X1 Y1 Z1 in the turned coordinates. Turned about Z alone the tool stays upright, and a shift
+/// and a rotation say all of it; tilted, the tool stands otherwise too.
 bool StatementLowering::swivel(const std::vector<Expr>& args, WordPos pos, Parts& parts) {
   constexpr std::size_t fr = 0, st = 2, mode = 3, before = 4, angle = 7, behind = 10, used = 14;
   std::array<double, used> v{};
@@ -231,8 +231,9 @@ bool StatementLowering::swivel(const std::vector<Expr>& args, WordPos pos, Parts
       row[b] = rb * c - ra * s;
     }
   }
-  const auto add = [&](ir::ActionData data) { parts.act(std::move(data), pos, c_.slice(pos)); };
-  add(ir::OpaqueWord{c_.slice(pos)});
+  const auto add = [&](ir::ActionData data) -> ir::Action& { return parts.act(std::move(data), pos, c_.slice(pos)); };
+  const bool tilted = std::any_of(turns.begin(), turns.end(), [](const Turn& t) { return t.axis != ir::axis::z; });
+  if (tilted) add(ir::OpaqueWord{c_.slice(pos)}).order = ir::Order::after;
   auto shift = std::make_shared<ir::FrameChange>();
   shift->slot = ir::FrameSlot::shift;
   for (const ir::AxisId axis : {ir::axis::x, ir::axis::y, ir::axis::z}) {
@@ -245,7 +246,7 @@ bool StatementLowering::swivel(const std::vector<Expr>& args, WordPos pos, Parts
   add(ir::FrameOp{cleared(ir::FrameSlot::rotation)});
   for (const Turn& t : turns) add(ir::FrameOp{turn(t.axis, t.angle, ir::FrameCombine::compose)});
   c_.tool_frame = true;
-  c_.tool.state = ToolDirection::State::unsure;
+  if (tilted) c_.tool.state = ToolDirection::State::unsure;
   c_.warning(
       "SIN-053", pos,
       std::string("positions are those of the swivelled plane; how the rotary axes of the machine turn, and where a "
