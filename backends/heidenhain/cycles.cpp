@@ -257,7 +257,7 @@ class HoleText {
       q(256, Value(0));
       return 209;
     }
-    if (p.law != ir::PeckLaw::constant || !p.lift.literal() || !c_.pitch.literal()) return 0;
+    if (p.law != ir::PeckLaw::constant || !p.first_from_surface || !p.lift.literal() || !c_.pitch.literal()) return 0;
     q(257, p.first);
     q(256, Value(p.lift.number / std::fabs(c_.pitch.number)));
     return 209;

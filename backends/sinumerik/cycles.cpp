@@ -209,7 +209,7 @@ std::string_view tap(const HoleCycle& c, Arguments& args) {
   if (c.has_speed) args["SST"] = c.speed;
   if (c.has_speed_out) args["SST1"] = c.speed_out;
   if (c.pecks.law == ir::PeckLaw::none) return "CYCLE84";
-  if (c.pecks.law != ir::PeckLaw::constant) return {};
+  if (c.pecks.law != ir::PeckLaw::constant || c.pecks.first_from_surface) return {};
   args["VARI"] = Value(zero(c.pecks.lift) ? 2 : 1);
   args["DAM"] = c.pecks.first;
   if (!zero(c.pecks.lift)) args["VRT"] = c.pecks.lift;

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "ir/cycles/hole.h"
+#include "ir/analysis/settings.h"
 #include "ir/cycles/pattern.h"
+#include "ir/edit/rewrite.h"
 
 namespace cnctrans::ir::detail {
 
@@ -28,11 +30,20 @@ bool is_tool_datum(Datum d) {
          d == Datum::tool_nose_width || d == Datum::part_count || d == Datum::cycle_time;
 }
 
+std::optional<double> speed_number(const Value& v, const Facts& f) {
+  if (v.literal()) return v.number;
+  const bool known = f.spindle && passes::setting<SpindleMode>(f, Setting::spindle_mode) == SpindleMode::rpm;
+  return constant_value(passes::map_expr(v.expr, [&](const ExprPtr& e) {
+    const auto* datum = std::get_if<SystemRef>(&e->node);
+    return known && datum != nullptr && datum->datum == Datum::rpm ? number(*f.spindle) : e;
+  }));
+}
+
 void take_speeds(const HoleCycle& hole, Facts& f, bool runs_now) {
   for (const auto& [given, value] :
        {std::pair(hole.has_speed, &hole.speed), std::pair(hole.has_speed_out, &hole.speed_out)}) {
     if (!given) continue;
-    const auto speed = value->literal() ? std::optional(value->number) : constant_value(value->expr);
+    const auto speed = speed_number(*value, f);
     f.spindle = runs_now || f.spindle == speed ? speed : std::nullopt;
   }
 }

@@ -49,6 +49,8 @@ bool has_pattern(const Block& b);
 /// Data of a tool: programmed positions are those of its tip, whatever they are.
 bool is_tool_datum(Datum d);
 
+/// A speed in rev/min: a number, or what follows from the speed in force.
+std::optional<double> speed_number(const Value& v, const Facts& f);
 /// A cycle with speeds of its own leaves the last of them in force, once it has run.
 void take_speeds(const HoleCycle& hole, Facts& f, bool runs_now);
 

@@ -77,7 +77,7 @@ class Transfer {
     if (x.zero_is_maximum && f_.feed == 0.0) f_.feed.reset();
   }
   void operator()(const SetSpindle& x) {
-    if (f_.master == x.number) f_.spindle = known_number(x.value);
+    if (f_.master == x.number) f_.spindle = detail::speed_number(x.value, f_);
     if (!f_.master) f_.spindle.reset();
   }
   /// Each spindle keeps its own speed and its own kind of speed.
@@ -113,6 +113,7 @@ class Transfer {
     runs_here_ = x.here;
     here_is_hole_ = plain_hole;
     if (x.here && plain_hole) hole_here_ = hole;  // its retract plane may stand behind it in the block
+    along_ = x.here && hole != nullptr && hole->kind != HoleKind::mill && hole->axis != axis::none ? hole : nullptr;
     if (x.here && plain_hole) place_ = cycles::own_place(*hole);
     const auto* named = x.cycle ? std::get_if<NamedCycle>(&x.cycle->node) : nullptr;
     const auto* cycle = named != nullptr && !x.modal && x.here ? cycles::find_machining(named->name) : nullptr;
@@ -303,6 +304,8 @@ class Transfer {
   void cycle_moves() {
     const bool active = f_.cycle_active || !f_.cycle_active_known;
     if (!active && !runs_here_) return;
+    if (along_ != nullptr && f_.cycle_active_known && (!f_.cycle_active || f_.cycle_from == id_))
+      return hole_along(*along_);
     const bool holes_only = (!active || (f_.cycle_active_known && f_.cycle_is_hole)) && (!runs_here_ || here_is_hole_);
     const auto plane = setting(Setting::plane);
     if (!holes_only || !plane) return forget_positions();
@@ -316,6 +319,13 @@ class Transfer {
       set_position(w, std::nullopt);
     else if (!stays_)
       set_position(w, left_at_ ? resolved(w, WordScale::modal, true, left_at_) : std::nullopt);
+  }
+
+  /// A hole of this block along an axis of its own: the others stay.
+  void hole_along(const HoleCycle& hole) {
+    leaves_at(hole);
+    if (!stays_)
+      set_position(hole.axis, left_at_ ? resolved(hole.axis, WordScale::modal, true, left_at_) : std::nullopt);
   }
 
   const Value* word(std::string_view name) const {
@@ -365,6 +375,7 @@ class Transfer {
   bool runs_here_ = false;
   bool here_is_hole_ = false;
   const HoleCycle* hole_here_ = nullptr;                           ///< the hole of this block
+  const HoleCycle* along_ = nullptr;                               ///< the same, along an axis that it names
   std::pair<const Value*, const Value*> place_{nullptr, nullptr};  ///< that its words name
   bool not_understood_ = false, follows_ = false;
   bool pocket_ = false;

@@ -429,8 +429,8 @@ class CyclePass {
   void tell_tap(const Active& a, const LineInfo& where) const;
   /// Where the reference plane lies only the run knows.
   void tell_reference(const Active& a, const LineInfo& where) const;
-  /// A tap in pecks as one tap a peck, each back to the reference plane; nullopt: the target has none. `differs`: what
-  /// is not the same.
+  /// A tap as the target's, one a peck, each back to the reference plane, from which a rapid move goes on to the
+  /// retract level; nullopt: the target has none. `differs`: what is not the same.
   std::optional<Explosion> tap_strokes(const HoleCycle& c, const Statement& s, const Block& b, std::string* differs);
   /// A tap at the middle of the work as the tapping form of the target's axial drilling cycle (lathes). `sense`: of the
   /// spindle there. nullopt: the target has none, or something is not known.

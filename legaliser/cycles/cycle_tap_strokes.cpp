@@ -190,7 +190,6 @@ std::optional<Explosion> CyclePass::axial_tap(const HoleCycle& c, const Statemen
 
 std::optional<Explosion> CyclePass::tap_strokes(const HoleCycle& c, const Statement& s, const Block& b,
                                                 std::string* differs) {
-  if (c.pecks.law == PeckLaw::none) return std::nullopt;
   const Facts facts = facts_for_tap(s, b);
   const auto w = cycle_axis(c, b, facts);
   const auto t = tap_here(c, b, facts, active_->defined_at ? active_->defined_at : active_->height);
@@ -203,7 +202,9 @@ std::optional<Explosion> CyclePass::tap_strokes(const HoleCycle& c, const Statem
     l.given = true;
     return l;
   };
-  const auto sizes = cycles::peck_sizes(n, std::fabs(n.reference - n.bottom));
+  double z = n.from_surface ? n.surface : n.reference;
+  const double depth = std::fabs(z - n.bottom);
+  const auto sizes = c.pecks.law == PeckLaw::none ? std::vector{depth} : cycles::peck_sizes(n, depth);
   constexpr std::size_t most_strokes = 100;
   if (sizes.size() > most_strokes) return std::nullopt;
   HoleCycle one = c;
@@ -217,7 +218,9 @@ std::optional<Explosion> CyclePass::tap_strokes(const HoleCycle& c, const Statem
   Explosion out;
   TapNeeds needs;
   needs.scale = feed_scale_;
-  double z = n.reference;
+  const bool over_it = active_->height == t->retract && !moves_along(b, *w);
+  if (c.approach_by_retract && !over_it)
+    out.blocks.push_back(made(like, straight_move(MotionKind::rapid, *w, t->length(t->retract))));
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     z -= n.up * sizes[i];
     one.bottom = level(i + 1 < sizes.size() ? z : n.bottom);

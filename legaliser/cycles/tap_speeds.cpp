@@ -29,7 +29,7 @@ SpindleState state_of(SpindleStep s) {
 bool candidate(const HoleCycle& c) {
   const bool numbers = c.pitch.literal() && c.pitch.number != 0 &&
                        (!c.has_speed || (c.speed.literal() && c.speed.number > 0)) &&
-                       (!c.has_speed_out || (c.has_speed && c.speed_out.literal()));
+                       (!c.has_speed_out || c.speed_out.literal());
   const bool stops = c.rigid && c.spindle_bottom == SpindleStep::usual && c.spindle_after == SpindleStep::off &&
                      !c.spindle_after_retract;
   const bool by_itself =
@@ -40,6 +40,7 @@ bool candidate(const HoleCycle& c) {
 std::optional<Around> split(const CyclePtr& cycle, const Facts& facts, std::optional<SpindleState> sense) {
   const auto* c = cycle ? std::get_if<HoleCycle>(&cycle->node) : nullptr;
   if (c == nullptr || !candidate(*c)) return std::nullopt;
+  if (c->has_speed_out && !c->has_speed && !facts.spindle) return std::nullopt;  // whether it is another one
   const double in = c->has_speed ? c->speed.number : facts.spindle.value_or(0);
   const double out = c->has_speed_out ? c->speed_out.number : in;
   const bool same_in = !c->has_speed || (facts.spindle && std::fabs(*facts.spindle - in) < 1e-9);
@@ -156,6 +157,8 @@ class TapSpeeds {
     }
     if (!around) return out.push_back(std::move(s));
     if (around->slower) tell(like, *around->slower);
+    if (around->after && !over_points && sets_speed(body, i + 1))
+      std::erase_if(around->after->actions, [](const Action& a) { return std::holds_alternative<SetSpindle>(a.data); });
     Body pieces;
     const std::size_t own = around->before.actions.empty() ? 0 : 1;
     if (own != 0) pieces.push_back(made(like, std::move(around->before)));
@@ -163,6 +166,12 @@ class TapSpeeds {
     if (around->after && !over_points) pieces.push_back(made(like, *std::move(around->after)));
     if (around->after && over_points) behind = std::move(around->after);
     editor_.put_group(out, std::move(pieces), own);
+  }
+  /// The next statement gives the spindle its speed on every way.
+  bool sets_speed(const Body& body, std::size_t i) const {
+    const auto* b = i < body.size() ? std::get_if<Block>(&body[i].node) : nullptr;
+    return b != nullptr && !b->has_motion && body[i].line.skip_mask == 0 && labels_on(body[i].line).empty() &&
+           b->actions.size() == 1 && action_in<SetSpindle>(*b) != nullptr && action_in<SetSpindle>(*b)->number == 1;
   }
   /// Between a modal call and its end stand only points to which the tool goes in rapid, and nothing that turns the
   /// spindle.

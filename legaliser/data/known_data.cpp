@@ -84,14 +84,18 @@ class KnownData {
     return ref != nullptr && !sayable(*ref);
   }
 
-  /// A sum or product of numbers, one of which was read as a number.
+  /// A sum, product or quotient of numbers, one of which was read as a number.
   static ExprPtr folded(const ExprPtr& e) {
     const auto* b = std::get_if<Binary>(&e->node);
-    if (b == nullptr || (b->op != BinaryOp::add && b->op != BinaryOp::multiply)) return e;
+    if (b == nullptr || (b->op != BinaryOp::add && b->op != BinaryOp::multiply && b->op != BinaryOp::divide)) return e;
     const auto* left = as_number(b->left);
     const auto* right = as_number(b->right);
     if (left == nullptr || right == nullptr) return e;
-    return number(b->op == BinaryOp::add ? left->value + right->value : left->value * right->value);
+    if (b->op == BinaryOp::add) return number(left->value + right->value);
+    if (b->op == BinaryOp::multiply) return number(left->value * right->value);
+    const double quotient =
+        std::round(left->value / right->value * 1e9) / 1e9;  // only one that is no rounder than it was
+    return std::fabs(quotient * right->value - left->value) <= 1e-12 * std::fabs(left->value) ? number(quotient) : e;
   }
 
   /// DIAM=1 says what the code says.

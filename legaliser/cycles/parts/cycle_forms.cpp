@@ -151,6 +151,7 @@ std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const
     said->node = std::move(form.cycle);
     auto found = native_form(said, b, facts, context, initial);
     if (!found) continue;
+    form.needs.pecks_from_elsewhere = needs->pecks_from_elsewhere;
     *needs = form.needs;
     needs->scale = scale;
     return found;
@@ -190,7 +191,8 @@ std::optional<CyclePtr> native_form(const CyclePtr& cycle, const Block& b, const
     h.surface = Level{};
     if (auto form = either_way(h)) return form;
   }
-  return without_dwell(*hole, b, facts, context, initial, sense, needs);
+  if (auto form = without_dwell(*hole, b, facts, context, initial, sense, needs)) return form;
+  return with_pecks_from_elsewhere(*hole, b, facts, context, initial, sense, needs);
 }
 
 bool disturbs_call(const Block& b) {

@@ -28,6 +28,7 @@ struct TapNeeds {
   FeedScale scale;            ///< given by the pass
   bool bound = false;         ///< a new F or S under the cycle would change the pitch on one of the two controls
   std::string differs;        ///< for people: what the target's tap does not do; empty: nothing
+  bool pecks_from_elsewhere = false;  ///< its pecks are counted from another plane already
 };
 struct TapForm {
   HoleCycle cycle;
@@ -44,6 +45,10 @@ std::vector<TapForm> tap_forms(const HoleCycle& c, const Block& b, const Facts& 
 std::optional<CyclePtr> without_dwell(const HoleCycle& c, const Block& b, const Facts& facts,
                                       const LegaliseContext& context, std::optional<double> initial,
                                       std::optional<SpindleState> sense, TapNeeds* needs);
+/// native_form() of a tap whose pecks the target counts from the other plane, surface or reference.
+std::optional<CyclePtr> with_pecks_from_elsewhere(const HoleCycle& c, const Block& b, const Facts& facts,
+                                                  const LegaliseContext& context, std::optional<double> initial,
+                                                  std::optional<SpindleState> sense, TapNeeds* needs);
 /// The sense in which the spindle turns, by the text; a stopped one is started clockwise by a tap.
 class SpindleSense {
  public:

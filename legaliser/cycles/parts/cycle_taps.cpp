@@ -65,13 +65,17 @@ bool pitch_as_feed(TapForm& f, const Block& b, const Facts& facts, std::optional
   return f.needs.feed.has_value();
 }
 
+std::string join(std::string first, std::string_view second) {
+  return first.empty() ? std::string(second) : std::move(first) + ", " + std::string(second);
+}
+
 }  // namespace
 
 std::vector<TapForm> tap_forms(const HoleCycle& c, const Block& b, const Facts& facts,
                                std::optional<SpindleState> sense, const FeedScale& feeds) {
   std::vector<TapForm> forms;
   const auto unit = feed_units(b, facts, feeds);
-  if (!is_tap(c) || c.pecks.law != PeckLaw::none || !sense) return forms;
+  if (!is_tap(c) || !sense) return forms;
   const auto by_feed = pitch_by_feed(b, facts, unit);
   if (c.spindle_after == SpindleStep::usual) {
     // The sense in numbers. A spindle that follows the axis is oriented first there.
@@ -165,7 +169,30 @@ std::optional<CyclePtr> without_dwell(const HoleCycle& c, const Block& b, const 
   plain.dwell_bottom = Value{};
   made->node = std::move(plain);
   auto form = native_form(made, b, facts, context, initial, sense, needs);
-  if (form) needs->differs = "it has no dwell at the bottom of the hole";
+  if (form) needs->differs = join(needs->differs, "it has no dwell at the bottom of the hole");
+  return form;
+}
+
+std::optional<CyclePtr> with_pecks_from_elsewhere(const HoleCycle& c, const Block& b, const Facts& facts,
+                                                  const LegaliseContext& context, std::optional<double> initial,
+                                                  std::optional<SpindleState> sense, TapNeeds* needs) {
+  if (!is_tap(c) || needs == nullptr || needs->pecks_from_elsewhere || c.pecks.law == PeckLaw::none)
+    return std::nullopt;
+  auto made = std::make_shared<Cycle>();
+  HoleCycle other = c;
+  other.pecks.first_from_surface = !c.pecks.first_from_surface;
+  made->node = std::move(other);
+  TapNeeds own = *needs;
+  own.pecks_from_elsewhere = true;
+  auto form = native_form(made, b, facts, context, initial, sense, &own);
+  if (!form) return std::nullopt;
+  *needs = own;
+  const bool one_place = c.reference.given && c.reference.base == LevelBase::from_surface && c.reference.value.is(0);
+  if (!one_place) {
+    needs->differs = join(needs->differs, c.pecks.first_from_surface
+                                              ? "its pecks are counted from the reference plane, not from the surface"
+                                              : "its pecks are counted from the surface, not from the reference plane");
+  }
   return form;
 }
 
