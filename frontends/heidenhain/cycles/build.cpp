@@ -19,11 +19,6 @@ using ir::Value;
 
 namespace {
 
-Value larger(const Value& a, const Value& b) {
-  if (a.literal() && b.literal()) return a.number > b.number ? a : b;
-  return Value(ir::call(ir::Function::max, {ir::as_expr(a), ir::as_expr(b)}));
-}
-
 ir::ExprPtr programmed_speed() {
   return datum(ir::Datum::rpm, "S");
 }
@@ -36,6 +31,10 @@ Level level_of(Value v, LevelBase base) {
   l.base = base;
   l.given = true;
   return l;
+}
+Value larger(const Value& a, const Value& b) {
+  if (a.literal() && b.literal()) return a.number > b.number ? a : b;
+  return Value(ir::call(ir::Function::max, {ir::as_expr(a), ir::as_expr(b)}));
 }
 Value half(const Value& v) {
   return ir::scale(v, 0.5);

@@ -112,5 +112,6 @@ class CycleBuilder {
 ir::Level level_of(ir::Value v, ir::LevelBase base);
 ir::Value half(const ir::Value& v);
 ir::Value magnitude(const ir::Value& v);
+ir::Value larger(const ir::Value& a, const ir::Value& b);
 
 }  // namespace cnctrans::frontends::heidenhain

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "dialects/heidenhain/variables.h"
+#include "frontends/heidenhain/cycles/builder.h"
 
 namespace cnctrans::frontends::heidenhain {
 
@@ -321,9 +322,10 @@ void CycleCalls::above_first(const Item& item, const Machining& m, const ir::Pla
                      number(hole->reference) && hole->reference.base == ir::LevelBase::from_surface && item.height &&
                      item.height->literal();
   if (!known) {
-    lowering_.report().note("HEI-019", {},
+    lowering_.report().warn("HEI-019", {},
                             "the tool is taken to stand above the surface: it goes in the plane first, then along its "
-                            "axis");
+                            "axis",
+                            "from below the control goes up first; go along the tool axis to a number before the call");
     return;
   }
   const double surface = hole->surface.value.number;
@@ -394,8 +396,10 @@ void CycleCalls::at_points(std::size_t i, Statements& out) {
     if (report.refused()) return refuse({});
   }
   if (!item.height && each.front().cycle != nullptr)
-    report.note("HEI-019", {},
-                "the height of the tool at the call is not known: between the points it is that of the cycle");
+    report.warn("HEI-019", {},
+                "the height of the tool at the call is not known: between the points the tool goes to that of the "
+                "cycle, on the control to the higher one",
+                "go along the tool axis to a number before the call");
   for (auto& m : each) raise(m, item.height);
   out.push_back(std::move(item.statement));
   const ir::Statement first = out.back();
@@ -425,20 +429,20 @@ void CycleCalls::at_points(std::size_t i, Statements& out) {
 
 /// Between the points the tool goes where it stood at the call, if that is higher than the cycle's own way out.
 void CycleCalls::raise(Machining& m, const std::optional<ir::Value>& height) {
-  if (!height || !height->literal()) return;
+  if (!height) return;
+  const auto high_enough = [&height](const ir::Value& v) {
+    return v.literal() && height->literal() && v.number >= height->number;
+  };
   const auto* last = m.moves.empty() ? nullptr : &m.moves.back();
-  if (last != nullptr && last->kind == CycleMove::Kind::rapid && last->w && last->w->literal() &&
-      last->w->number < height->number) {
+  if (last != nullptr && last->kind == CycleMove::Kind::rapid && last->w && !high_enough(*last->w)) {
     CycleMove up;
-    up.w = *height;
+    up.w = larger(*last->w, *height);
     m.moves.push_back(std::move(up));
   }
   const auto* hole = m.cycle == nullptr ? nullptr : std::get_if<ir::HoleCycle>(&m.cycle->node);
-  if (hole == nullptr || hole->retract.base != ir::LevelBase::absolute || !hole->retract.value.literal() ||
-      hole->retract.value.number >= height->number)
-    return;
+  if (hole == nullptr || hole->retract.base != ir::LevelBase::absolute || high_enough(hole->retract.value)) return;
   ir::HoleCycle higher = *hole;
-  higher.retract.value = *height;
+  higher.retract.value = larger(higher.retract.value, *height);
   m.cycle = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(higher)});
 }
 
