@@ -44,6 +44,8 @@ void say_tangent_arcs(Program& program, const LegaliseContext& context);
 void write_thread_angles(Program& program, const LegaliseContext& context);
 /// A tap with a compensating chuck as a straight move.
 void write_floating_taps(Program& program, const LegaliseContext& context);
+/// The two strokes of a rigid tap, in and back out, as a tap.
+void say_stroke_taps(Program& program, const LegaliseContext& context);
 /// The tapping form of the axial drilling cycle of a lathe as a tap.
 void say_axial_taps(Program& program, const LegaliseContext& context);
 /// Taps that turn the spindle by themselves, for targets whose taps take the spindle as it runs.

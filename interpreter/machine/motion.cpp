@@ -207,7 +207,9 @@ bool BlockMachine::general_motion(const ir::Motion& m, ir::MotionKind kind) {
     // Up to the falling edge: until the probe is free.
     move.toward = m.extra->probe_goes_on || value(m.extra->probe_edge) >= 0;
   }
-  return !failure_.set && send(move);
+  if (failure_.set || !send(move)) return false;
+  if (kind == ir::MotionKind::tap_rigid_out) run_master(ir::SpindleState::off);  // it has followed the axis to its end
+  return true;
 }
 
 /// Coordinates of the end in the work frame: Cartesian words, polar words, a line by its angle.

@@ -67,6 +67,8 @@ constexpr std::array table{
          "The start angle that stays in force is said in each thread."},
     Pass{"write_floating_taps", passes::write_floating_taps, PassScope::program,
          "A tap with a compensating chuck as a straight move."},
+    Pass{"say_stroke_taps", passes::say_stroke_taps, PassScope::program,
+         "The two strokes of a rigid tap, in and back out, as a tap."},
     Pass{"say_axial_taps", passes::say_axial_taps, PassScope::program,
          "The tapping form of the axial drilling cycle of a lathe as a tap."},
     Pass{"write_block_feeds", passes::write_block_feeds, PassScope::program,
