@@ -192,6 +192,11 @@ std::optional<std::uint32_t> turned_by(const FrameChange& c) {
   return space & ~(1U << c.rotation_axis);
 }
 
+bool turns_spindle(const CyclePtr& cycle) {
+  const auto* hole = cycle ? std::get_if<HoleCycle>(&cycle->node) : nullptr;
+  return hole != nullptr && (hole->has_speed || hole->has_speed_out);
+}
+
 /// Something may write the offsets while the program runs: the program itself, or a routine that is not at hand.
 bool rows_change(const Program& program) {
   bool found = false;
@@ -220,7 +225,7 @@ bool rows_change(const Program& program) {
 FrameReach frame_reach(const Program& program, const ModalState& power_on) {
   constexpr std::uint32_t all = ~0U;
   std::uint32_t axes = 0, planes = 0, turned = 0;
-  bool turns = false;
+  bool turns = false, cycles_turn = false;
   const auto in_plane = [](Plane p) {
     const auto a = plane_axes(p);
     return 1U << a.u | 1U << a.v;
@@ -248,9 +253,12 @@ FrameReach frame_reach(const Program& program, const ModalState& power_on) {
           if (item.to_system && item.value && item.value->type == Type::frame) turned = all;
         }
       }
+      if (const auto* m = std::get_if<ModalCall>(&s.node)) cycles_turn = cycles_turn || turns_spindle(m->cycle);
       const auto* b = std::get_if<Block>(&s.node);
       if (b == nullptr) return;
       for (const auto& a : b->actions) {
+        if (const auto* c = std::get_if<CycleDefine>(&a.data))
+          cycles_turn = cycles_turn || (c->modal && turns_spindle(c->cycle));
         if (const auto* f = std::get_if<FrameOp>(&a.data); f != nullptr && f->change) note(*f->change);
         if (const auto* m = std::get_if<ModalSet>(&a.data); m != nullptr && m->setting == Setting::plane)
           planes |= in_plane(static_cast<Plane>(m->value));
@@ -258,7 +266,7 @@ FrameReach frame_reach(const Program& program, const ModalState& power_on) {
     });
   }
   if (turns) turned |= planes;
-  return {axes | turned, power_on.work_offset != 0, rows_change(program), turned};
+  return {axes | turned, power_on.work_offset != 0, rows_change(program), turned, cycles_turn};
 }
 
 }  // namespace cnctrans::ir::detail

@@ -26,7 +26,7 @@ struct CyclesUsed {
 };
 void note_cycles(const Statement& s, CyclesUsed& cycles);
 
-/// What the frame statements of a program reach.
+/// What the frame statements of a program reach, and its modal cycles.
 struct FrameReach {
   std::uint32_t axes = ~0U;  ///< bit n: one of them can move coordinates of axis n
   /// A preset is part of the work offset, which this machine has in force from the beginning: while the offsets are
@@ -36,6 +36,7 @@ struct FrameReach {
   /// is in force already moves the coordinates.
   bool rows_change = true;
   std::uint32_t turned = ~0U;  ///< bit n: a rotation mixes axis n with another one
+  bool cycles_turn = true;     ///< the cycle in force may run in any block, and leave a speed of its own
 };
 FrameReach frame_reach(const Program& program, const ModalState& power_on);
 /// ir::apply() in a program where frame statements reach these axes only.

@@ -78,7 +78,8 @@ class Transfer {
   }
   void operator()(const SetSpindle& x) {
     if (f_.master == x.number) f_.spindle = detail::speed_number(x.value, f_);
-    if (!f_.master) f_.spindle.reset();
+    const bool taken_over = framed_.cycles_turn && (f_.cycle_active || !f_.cycle_active_known);
+    if (!f_.master || taken_over) f_.spindle.reset();
   }
   /// Each spindle keeps its own speed and its own kind of speed.
   void operator()(const MasterSpindle& x) {

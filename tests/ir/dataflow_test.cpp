@@ -219,6 +219,15 @@ TEST(Positions, HoleCyclesLeaveTheToolOverTheHole) {
   EXPECT_EQ(named.x("1"), "unknown");
 }
 
+TEST(Dataflow, ATapInForceTakesTheSpindleOver) {
+  const Known k = known(
+      "block spindle 200\nmodal_call cycle hole tap bottom -15 pitch 1.25 rigid orient_first speed 200\n"
+      "N1 block spindle 500\nN2 block rapid X 10\nmodal_call off\nblock spindle 300\nN4 end_program\n");
+  EXPECT_EQ(k.at("1").spindle, 200);
+  EXPECT_EQ(k.at("2").spindle, std::nullopt);
+  EXPECT_EQ(k.at("4").spindle, 300);
+}
+
 TEST(Positions, OpaqueTextForgetsEverythingUnlessHarmless) {
   const Known k =
       known("block rapid X 1\nopaque \"?\" harmless\nN1 block\nopaque \"?\" feature \"text.unread\"\nN2 block\n");
