@@ -57,9 +57,7 @@ ir::CyclePtr CycleBuilder::build() {
   else
     good = cycle_.old != nullptr ? old() : not_carried();
   if (!good || report_.refused() || skipped_ || !context_.moves->empty()) return nullptr;
-  if (hole_.kind == HoleKind::mill && context_.tool_radius)
-    hole_.mill.words.emplace_back(std::string(ir::cycles::tool_radius_word), Value(*context_.tool_radius));
-  auto made = std::make_shared<const ir::Cycle>(ir::Cycle{std::move(hole_)});
+  auto made = as_cycle(std::move(hole_));
   if (!aside_ && cycle_.number != 254) return made;
   MoveList steps;
   if (!aside_) {  // it leaves the tool over the middle of the circle
@@ -79,6 +77,12 @@ ir::CyclePtr CycleBuilder::build() {
 bool CycleBuilder::told(MoveList& steps) {
   *context_.moves = steps.take();
   return true;
+}
+
+ir::CyclePtr CycleBuilder::as_cycle(ir::HoleCycle hole) const {
+  if (hole.kind == HoleKind::mill && context_.tool_radius)
+    hole.mill.words.emplace_back(std::string(ir::cycles::tool_radius_word), Value(*context_.tool_radius));
+  return std::make_shared<const ir::Cycle>(ir::Cycle{std::move(hole)});
 }
 
 bool CycleBuilder::numbers() {

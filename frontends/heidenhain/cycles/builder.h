@@ -33,6 +33,8 @@ class CycleBuilder {
   bool as_moves();
   /// ... or by these steps.
   bool told(MoveList& steps);
+  /// A cycle, with the radius of its tool where it mills and TOOL DEF says it.
+  [[nodiscard]] ir::CyclePtr as_cycle(ir::HoleCycle hole) const;
   /// Its parameters are numbers; a refusal where they are not.
   bool numbers();
   [[nodiscard]] double n(std::int16_t number) const { return q(number).number; }

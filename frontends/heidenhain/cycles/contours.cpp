@@ -95,13 +95,13 @@ bool CycleBuilder::to_and_fro(MillContour line, double top, double bottom) {
     level.surface = level_of(Value(top + (bottom - top) * k / count), LevelBase::absolute);
     level.bottom = level_of(Value(top + (bottom - top) * (k + 1) / count), LevelBase::absolute);
     ir::cycles::put_contours(level, {line});
-    steps.cycle(std::make_shared<const ir::Cycle>(ir::Cycle{std::move(level)}));
+    steps.cycle(as_cycle(std::move(level)));
     line.elements = backwards(line.elements);
     for (auto& [name, v] : hole_.mill.words) {
       if (name == "side" && !v.is(40)) v = Value(v.is(41) ? 42 : 41);
     }
   }
-  warn("between the levels the tool goes up to the clearance height (Q7)");
+  if (count > 1) warn("between the levels the tool goes up to the clearance height (Q7)");
   return told(steps);
 }
 
@@ -197,9 +197,8 @@ bool CycleBuilder::slot_along() {
     put("mill_feed", feed);
     if (operation == 1) put("wall_stock", Value(stock));
     put("outside", Value(1));
-    if (context_.tool_radius) put(ir::cycles::tool_radius_word, Value(*context_.tool_radius));
     ir::cycles::put_contours(h, {*around});
-    steps.cycle(std::make_shared<const ir::Cycle>(ir::Cycle{std::move(h)}));
+    steps.cycle(as_cycle(std::move(h)));
   };
   if (kind != 2) part(1, q(202), q(207));
   if (kind != 1) part(2, q(338), q(385).is(0) ? q(207) : q(385));

@@ -174,11 +174,7 @@ bool CycleBuilder::face() {
     if (name == "mill_feed" && !q(385).is(0)) v = q(385);
   }
   MoveList steps;
-  for (auto* h : {&rough, &last}) {
-    if (context_.tool_radius)
-      h->mill.words.emplace_back(std::string(ir::cycles::tool_radius_word), Value(*context_.tool_radius));
-    steps.cycle(std::make_shared<const ir::Cycle>(ir::Cycle{std::move(*h)}));
-  }
+  for (auto* h : {&rough, &last}) steps.cycle(as_cycle(std::move(*h)));
   return told(steps);
 }
 

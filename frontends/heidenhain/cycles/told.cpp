@@ -66,9 +66,7 @@ bool CycleBuilder::thread_with_countersink() {
     else if (!climb())
       return false;
     hole_.mill.shape = "thread.helix";
-    if (context_.tool_radius)
-      hole_.mill.words.emplace_back(std::string(ir::cycles::tool_radius_word), Value(*context_.tool_radius));
-    steps.cycle(std::make_shared<const ir::Cycle>(ir::Cycle{hole_}));
+    steps.cycle(as_cycle(hole_));
   }
   if (front && after) countersink(steps, 358, q(359));
   steps.rapid(hole_.retract.value);
