@@ -90,15 +90,17 @@ class StrokeTaps {
     const AxisId w = in.motion.extra->lead_axis;
     const Value& lead = in.motion.extra->lead;
     const auto plane = setting<Plane>(facts, Setting::plane);
-    const auto start = w < facts.position.size() ? facts.position[w] : std::nullopt;
+    const double start = w < facts.position.size() ? facts.position[w].value_or(std::nan("")) : std::nan("");
+    const bool radius = w != axis::x || setting<DiameterMode>(facts, Setting::diameter) == DiameterMode::radius;
     const bool quiet = facts.cycle_active_known && !facts.cycle_active && !facts.modal_call_runs();
     const bool one_thread =
         lead.literal() && lead.number > 0 && equal(lead, out->motion.extra->lead) && out->motion.extra->lead_axis == w;
-    if (!plane || !start || !quiet || !one_thread || !joined_to_the_line(body[back]) || !ends_here(body, back + 1))
+    if (!plane || std::isnan(start) || !radius || !quiet || !one_thread || !joined_to_the_line(body[back]) ||
+        !ends_here(body, back + 1))
       return;
-    const auto bottom = end_of(in, facts, w, *start);
+    const auto bottom = end_of(in, facts, w, start);
     const auto top = bottom ? end_of(*out, facts, w, bottom->literal() ? bottom->number : std::nan("")) : std::nullopt;
-    if (!top || !top->literal() || std::fabs(top->number - *start) > 1e-9) return;
+    if (!top || !top->literal() || !(std::fabs(top->number - start) <= 1e-9)) return;
     HoleCycle hole;
     hole.kind = HoleKind::tap;
     hole.rigid = true;
@@ -106,7 +108,7 @@ class StrokeTaps {
     hole.spindle_after = SpindleStep::off;
     if (plane_axes(*plane).w != w) hole.axis = w;
     hole.bottom.value = *bottom;
-    hole.reference.value = hole.retract.value = Value(*start);
+    hole.reference.value = hole.retract.value = Value(start);
     hole.bottom.given = hole.reference.given = hole.retract.given = true;
     if (!speed_of(in, facts, hole.speed, hole.has_speed)) return;
     if (const auto angle = oriented_before(body, i, facts)) {

@@ -37,6 +37,13 @@ bool candidate(const HoleCycle& c) {
   return c.kind == HoleKind::tap && numbers && (by_itself || stops);
 }
 
+/// The target has a tap behind which the spindle stands, as this one leaves it.
+bool stands_on(const LegaliseContext& context, const CyclePtr& cycle) {
+  const auto* c = cycle ? std::get_if<HoleCycle>(&cycle->node) : nullptr;
+  return c != nullptr && c->spindle_after == SpindleStep::off && context.target.native_cycle &&
+         context.target.native_cycle(*cycle);
+}
+
 std::optional<Around> split(const CyclePtr& cycle, const Facts& facts, std::optional<SpindleState> sense) {
   const auto* c = cycle ? std::get_if<HoleCycle>(&cycle->node) : nullptr;
   if (c == nullptr || !candidate(*c)) return std::nullopt;
@@ -135,13 +142,13 @@ class TapSpeeds {
     auto* b = std::get_if<Block>(&s.node);
     std::optional<Around> around;
     bool over_points = m != nullptr;
-    if (m != nullptr && m->cycle && ends_in_sight(body, i)) {
+    if (m != nullptr && m->cycle && ends_in_sight(body, i) && !stands_on(context_, m->cycle)) {
       around = split(m->cycle, facts_.before(s), sense_.surely());
       if (around) m->cycle = around->cycle;
     }
     for (std::size_t k = 0; b != nullptr && k < b->actions.size(); ++k) {
       auto* d = std::get_if<CycleDefine>(&b->actions[k].data);
-      if (d == nullptr || !d->here || (d->modal && !row_of_points(body, i))) continue;
+      if (d == nullptr || !d->here || (d->modal && !row_of_points(body, i)) || stands_on(context_, d->cycle)) continue;
       over_points = d->modal;
       around = split(d->cycle, facts_.before(s), sense_.surely());
       if (around && !d->modal && says_speed(*around) && may_run_again(facts_.before(s))) around.reset();
