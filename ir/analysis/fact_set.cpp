@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ir/cycles/hole.h"
 #include "ir/analysis/settings.h"
+#include "ir/cycles/hole.h"
 #include "ir/cycles/pattern.h"
 #include "ir/edit/rewrite.h"
 
