@@ -45,6 +45,50 @@ struct Became {
 
 }  // namespace
 
+/// What the lines of the source became in all outputs.
+class WrittenLines {
+ public:
+  WrittenLines(const std::vector<OutputText>& outputs, FileId file) {
+    for (std::uint32_t o = 0; o < outputs.size(); ++o) {
+      written_.push_back(output_lines(outputs[o].bytes));
+      const auto& map = outputs[o].map.lines;
+      for (std::uint32_t i = 0; i < map.size() && i < written_[o].lines.size(); ++i) {
+        if (map[i].file != file) continue;
+        Became& b = became_[map[i].line];
+        if (b.count == 0) b = {o, i, 0, false};
+        b.scattered = b.scattered || b.output != o || b.line + b.count != i;
+        ++b.count;
+      }
+    }
+  }
+  /// nullopt: nothing, or lines that are not one behind the other.
+  [[nodiscard]] std::optional<Became> of(std::uint32_t first, std::uint32_t last) const {
+    std::optional<Became> all;
+    for (std::uint32_t line = first; line <= last; ++line) {
+      const auto it = became_.find(line);
+      if (it == became_.end()) continue;
+      const Became& b = it->second;
+      if (!all) {
+        all = b;
+        continue;
+      }
+      all->scattered = all->scattered || b.scattered || b.output != all->output || b.line != all->line + all->count;
+      all->count += b.count;
+    }
+    return all && !all->scattered ? all : std::nullopt;
+  }
+  [[nodiscard]] std::string_view text(const Became& b) const { return written_[b.output].text(b.line, b.count); }
+  /// Bytes of the output: where the first of them begins, and the one behind the last.
+  [[nodiscard]] std::size_t begin(const Became& b) const {
+    return b.line == 0 ? 0 : written_[b.output].ends[b.line - 1];
+  }
+  [[nodiscard]] std::size_t end(const Became& b) const { return written_[b.output].ends[b.line + b.count - 1]; }
+
+ private:
+  std::vector<OutputLines> written_;
+  std::unordered_map<std::uint32_t, Became> became_;  ///< by line of the source
+};
+
 Unfolding::Unfolding(std::string path, const frontends::PlainWords& words, const FoldedText& folded,
                      const frontends::PlainWords& target, MakeBlockNumbers numbers)
     : path_(std::move(path)),
@@ -83,46 +127,19 @@ bool Unfolding::take(Form& form, Sample sample) {
 }
 
 bool Unfolding::learn(const std::vector<OutputText>& outputs, FileId file, FoldedText::Stays& stays) {
-  std::unordered_map<std::uint32_t, Became> became;
-  std::vector<OutputLines> written;
-  for (std::uint32_t o = 0; o < outputs.size(); ++o) {
-    written.push_back(output_lines(outputs[o].bytes));
-    const auto& map = outputs[o].map.lines;
-    for (std::uint32_t i = 0; i < map.size() && i < written[o].lines.size(); ++i) {
-      if (map[i].file != file) continue;
-      Became& b = became[map[i].line];
-      if (b.count == 0) b = {o, i, 0, false};
-      b.scattered = b.scattered || b.output != o || b.line + b.count != i;
-      ++b.count;
-    }
-  }
-  const auto lines_of = [&](std::uint32_t first, std::uint32_t last) -> std::optional<Became> {
-    std::optional<Became> all;
-    for (std::uint32_t line = first; line <= last; ++line) {
-      const auto it = became.find(line);
-      if (it == became.end()) continue;
-      const Became& b = it->second;
-      if (!all) {
-        all = b;
-        continue;
-      }
-      all->scattered = all->scattered || b.scattered || b.output != all->output || b.line != all->line + all->count;
-      all->count += b.count;
-    }
-    return all && !all->scattered ? all : std::nullopt;
+  const WrittenLines written(outputs, file);
+  const auto become = [&](const KeptLine& k) {
+    const auto b = written.of(k.begin, k.line);
+    return b && take(forms_[k.shape], {std::string(unit_text(*folded_.text(), k.begin, k.line)),
+                                       std::string(written.text(*b)), k.motion, k.place});
   };
   // First those that are never the first of their run; what is special about a first line does not make a form.
   std::set<std::uint32_t> bad, special, partly;
   std::set<std::pair<std::uint32_t, std::uint32_t>> odd, shown;  // run, shape: a later line is (not) as the form says
-  const SourceText& source = *folded_.text();
   for (const bool first : {false, true}) {
     for (const KeptLine& k : folded_.kept()) {
       if (k.first != first) continue;
-      const auto b = lines_of(k.begin, k.line);
-      const bool good =
-          b && take(forms_[k.shape], {std::string(unit_text(source, k.begin, k.line)),
-                                      std::string(written[b->output].text(b->line, b->count)), k.motion, k.place});
-      if (good) {
+      if (become(k)) {
         if (!first) shown.emplace(k.run, k.shape);
         continue;
       }
@@ -141,24 +158,11 @@ bool Unfolding::learn(const std::vector<OutputText>& outputs, FileId file, Folde
   }
   places_.assign(outputs.size(), {});
   for (std::size_t g = 0; g < folded_.gaps().size(); ++g) {
-    const Gap& gap = folded_.gaps()[g];
-    if (gap.stands_in) {
-      const auto own = lines_of(gap.first, gap.last);
-      if (!own) {
-        bad.insert(gap.run);
-        continue;
-      }
-      const OutputLines& in = written[own->output];
-      const std::size_t at = own->line == 0 ? 0 : in.ends[own->line - 1];
-      places_[own->output].push_back({at, in.ends[own->line + own->count - 1] - at, g});
-      continue;
-    }
-    const auto a = lines_of(gap.first - 1, gap.first - 1), b = lines_of(gap.last + 1, gap.next);
-    if (!a || !b || a->output != b->output || a->line + a->count != b->line) {
-      bad.insert(gap.run);
-      continue;
-    }
-    places_[a->output].push_back({written[a->output].ends[a->line + a->count - 1], 0, g});
+    const auto found = place_of(g, written);
+    if (found)
+      places_[found->first].push_back(found->second);
+    else
+      bad.insert(folded_.gaps()[g].run);
   }
   for (auto& p : places_)
     std::sort(p.begin(), p.end(),
@@ -169,6 +173,20 @@ bool Unfolding::learn(const std::vector<OutputText>& outputs, FileId file, Folde
   stays.more.insert(special.begin(), special.end());
   stays.shapes.insert(odd.begin(), odd.end());
   return bad.empty() && special.empty() && odd.empty();
+}
+
+std::optional<std::pair<std::uint32_t, Unfolding::Place>> Unfolding::place_of(std::size_t gap,
+                                                                              const WrittenLines& written) const {
+  const Gap& g = folded_.gaps()[gap];
+  if (g.stands_in) {
+    const auto own = written.of(g.first, g.last);
+    if (!own) return std::nullopt;
+    const std::size_t at = written.begin(*own);
+    return std::pair(own->output, Place{at, written.end(*own) - at, gap});
+  }
+  const auto a = written.of(g.first - 1, g.first - 1), b = written.of(g.last + 1, g.next);
+  if (!a || !b || a->output != b->output || a->line + a->count != b->line) return std::nullopt;
+  return std::pair(a->output, Place{written.end(*a), 0, gap});
 }
 
 }  // namespace cnctrans::translator

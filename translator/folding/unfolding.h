@@ -48,6 +48,8 @@ class LineForm {
 /// Makes what numbers the blocks of one output; null where nothing does.
 using MakeBlockNumbers = std::function<std::unique_ptr<backends::BlockNumbers>()>;
 
+class WrittenLines;
+
 class Unfolding {
  public:
   /// `words` of the source, `target` of the outputs.
@@ -84,6 +86,9 @@ class Unfolding {
     std::vector<Sample> samples;
   };
   struct Part;
+  /// The output where the lines of a gap belong, and where in it; nullopt: what stands about it was written otherwise.
+  [[nodiscard]] std::optional<std::pair<std::uint32_t, Place>> place_of(std::size_t gap,
+                                                                        const WrittenLines& written) const;
   [[nodiscard]] std::vector<Part> parts_of(std::size_t output, std::size_t least) const;
   [[nodiscard]] std::optional<std::string> lines_of(std::size_t output, std::string_view bytes, const Part& part) const;
 

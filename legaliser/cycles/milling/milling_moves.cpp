@@ -335,10 +335,9 @@ std::optional<double> MillCycles::radius(const Site& site, double length_unit, s
          std::nullopt;
 }
 
-std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Statement& s, const Block& b,
-                                               const Facts& facts, std::optional<double> height,
-                                               std::optional<double> defined_at, std::optional<SpindleState> sense,
-                                               std::optional<SpindleState> turns, std::string* error) const {
+std::optional<MillCycles::Reading> MillCycles::read(const HoleCycle& c, const Statement& s, const Block& b,
+                                                    const Facts& facts, std::optional<double> defined_at,
+                                                    std::string* error) const {
   const auto units = setting_in<Units>(b, facts, Setting::units);
   const auto distance = setting_in<Distance>(b, facts, Setting::distance);
   const auto in_plane = setting_in<Plane>(b, facts, Setting::plane);
@@ -351,67 +350,102 @@ std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Stateme
     return *error = "its places would be diameters", std::nullopt;
   if (setting_in<CompSide>(b, facts, Setting::comp) != CompSide::off)
     return *error = "radius compensation is on, or may be", std::nullopt;
-  const auto axes = plane_axes(*in_plane);
   const double unit = *units == Units::inch ? 25.4 : 1;
-  cycles::HoleContext levels;
-  levels.length_unit = levels.level_unit = levels.feed_unit = unit;
-  levels.distance = *distance;
-  levels.height = defined_at.value_or(unknown);
+  cycles::HoleContext context;
+  context.length_unit = context.level_unit = context.feed_unit = unit;
+  context.distance = *distance;
+  context.height = defined_at.value_or(unknown);
   const auto literal = [](const Value& v) { return known_number(v); };
-  const auto numbers = cycles::resolve(c, levels, literal, error);
-  const auto words = cycles::resolve(c.mill, {unit, unit, unit, unit}, literal, error);
-  if (!numbers || !words) {
+  auto levels = cycles::resolve(c, context, literal, error);
+  auto words = cycles::resolve(c.mill, {unit, unit, unit, unit}, literal, error);
+  if (!levels || !words) {
     if (error->empty()) *error = "its words are computed when the program runs";
     return std::nullopt;
   }
   const auto plane = setting_in<RetractPlane>(b, facts, Setting::retract_plane);
-  const double leaves = cycles::retract_level(*numbers, plane.value_or(RetractPlane::initial));
-  const bool by_plane = !numbers->has_retract && !plane;
-  if (std::isnan(numbers->reference + numbers->surface + numbers->bottom + leaves) || by_plane)
+  const double leaves = cycles::retract_level(*levels, plane.value_or(RetractPlane::initial));
+  const bool by_plane = !levels->has_retract && !plane;
+  if (std::isnan(levels->reference + levels->surface + levels->bottom + leaves) || by_plane)
     return *error = "the height of the tool before it, or its retract plane, is not known here", std::nullopt;
-  cycles::MillContext context;
-  bool leads_by_middle = false;
-  if (cycles::needs_radius(*words) != cycles::RadiusNeed::none) {
-    bool none = false;
-    auto r = words->tool_radius;
-    if (!r) r = radius(it->second, unit, error, &none);
-    const bool lead = none && cycles::needs_radius(*words) == cycles::RadiusNeed::lead;
-    if (!r && !lead) return std::nullopt;
-    if (lead) error->clear();
-    leads_by_middle = lead;
-    context.tool_radius = r.value_or(0);
-  }
-  machine::tell_pocket(context_.source_machine.policies, context);
-  std::vector<cycles::MillContour> contours;
-  if (cycles::has_contours(c)) {
-    auto read = cycles::contours_in(c, error);
-    if (!read) return std::nullopt;
-    contours = *std::move(read);
-    context.contours = &contours;
-  }
-  const bool own_place = !contours.empty() || (words->words.contains("u") && words->words.contains("v"));
-  auto u = place_after(b, facts, axes.u), v = place_after(b, facts, axes.v);
-  if (!b.has_motion && end_ && end_->after == it->second.before) {
-    u = end_->u / unit;
-    v = end_->v / unit;
+  Reading reading{*std::move(words), *std::move(levels), plane_axes(*in_plane), unit, plane, it->second, {}};
+  if (!cycles::has_contours(c)) return reading;
+  auto contours = cycles::contours_in(c, error);
+  if (!contours) return std::nullopt;
+  reading.contours = *std::move(contours);
+  return reading;
+}
+
+bool MillCycles::stand(const Reading& r, const Block& b, const Facts& facts, cycles::MillContext& context) const {
+  const bool own_place = !r.contours.empty() || (r.words.words.contains("u") && r.words.words.contains("v"));
+  auto u = place_after(b, facts, r.axes.u), v = place_after(b, facts, r.axes.v);
+  if (!b.has_motion && end_ && end_->after == r.site.before) {
+    u = end_->u / r.unit;
+    v = end_->v / r.unit;
   }
   end_.reset();
   const bool incremental = !own_place && (!u || !v);
-  context.u = incremental ? 0 : u ? *u * unit : unknown;
-  context.v = incremental ? 0 : v ? *v * unit : unknown;
+  context.u = incremental ? 0 : u ? *u * r.unit : unknown;
+  context.v = incremental ? 0 : v ? *v * r.unit : unknown;
+  return incremental;
+}
+
+std::optional<double> MillCycles::radius_of(const Reading& r, bool* by_middle, std::string* error) const {
+  const auto need = cycles::needs_radius(r.words);
+  if (need == cycles::RadiusNeed::none) return 0;
+  if (r.words.tool_radius) return r.words.tool_radius;
+  bool none = false;
+  const auto known = radius(r.site, r.unit, error, &none);
+  if (known) return known;
+  *by_middle = none && need == cycles::RadiusNeed::lead;
+  if (!*by_middle) return std::nullopt;
+  error->clear();
+  return 0;
+}
+
+/// What the way of the moves rests on.
+static void tell_way(const cycles::MillNumbers& words, bool by_middle, const LineInfo& where, Diagnostics& told) {
+  if (words.shape->kind == cycles::MillKind::contour_pocket)
+    told.warning("TRN-511", where.span,
+                 "the way in this pocket with islands is this program's own: the source's control may "
+                 "go otherwise and clears the same volume",
+                 "compare with the control where the way matters (RUN-090)");
+  if (by_middle)
+    told.warning("TRN-420", where.span,
+                 "the way onto the contour and off it is counted from the tool's middle, not from its edge: the "
+                 "source's machine profile does not give the radius of the tool",
+                 "give it with --tools FILE, in the profile's \"tools\" or by --set TOOL_RADIUS=5; the tool plunges "
+                 "nearer to the contour by its radius");
+}
+
+std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Statement& s, const Block& b,
+                                               const Facts& facts, std::optional<double> height,
+                                               std::optional<double> defined_at, std::optional<SpindleState> sense,
+                                               std::optional<SpindleState> turns, std::string* error) const {
+  const auto read_words = read(c, s, b, facts, defined_at, error);
+  if (!read_words) return std::nullopt;
+  const Reading& r = *read_words;
+  cycles::MillContext context;
+  bool by_middle = false;
+  const auto tool_radius = radius_of(r, &by_middle, error);
+  if (!tool_radius) return std::nullopt;
+  context.tool_radius = *tool_radius;
+  machine::tell_pocket(context_.source_machine.policies, context);
+  if (!r.contours.empty()) context.contours = &r.contours;
+  const bool incremental = stand(r, b, facts, context);
   context.w = height.value_or(unknown);
-  context.plane = plane.value_or(RetractPlane::initial);
-  const double way = words->words.contains("sense") ? words->words.at("sense") : 0;
-  const bool by_spindle = !words->words.contains("half_length") && !words->words.contains("signed_radius") && way < 2;
-  if (by_spindle && cycles::has_sense(*words) && !sense)
+  context.plane = r.plane.value_or(RetractPlane::initial);
+  const auto& words = r.words.words;
+  const double way = words.contains("sense") ? words.at("sense") : 0;
+  const bool by_spindle = !words.contains("half_length") && !words.contains("signed_radius") && way < 2;
+  if (by_spindle && cycles::has_sense(r.words) && !sense)
     return *error = "climb milling depends on the sense of the spindle, which is not known here", std::nullopt;
   context.spindle_ccw = sense == SpindleState::ccw;
-  if (words->shape->kind == cycles::MillKind::chased && turns == SpindleState::off)
+  if (r.words.shape->kind == cycles::MillKind::chased && turns == SpindleState::off)
     return *error = "the spindle stands before it, and its passes follow a spindle that turns", std::nullopt;
-  const auto moves = cycles::expand(*words, *numbers, context, error);
+  const auto moves = cycles::expand(r.words, r.levels, context, error);
   if (!moves) return std::nullopt;
   const FeedBefore feed = feeds_.at(s, b, facts);
-  MillWriter writer(s.line, axes, unit, feed.value);
+  MillWriter writer(s.line, r.axes, r.unit, feed.value);
   writer.u = context.u;
   writer.v = context.v;
   writer.w = context.w;
@@ -421,22 +455,8 @@ std::optional<Explosion> MillCycles::write_out(const HoleCycle& c, const Stateme
     if (!writer.add(m, facts.spindle, error)) return std::nullopt;
   }
   if (!feed.none && !writer.finish(error)) return std::nullopt;
-  if (words->shape->kind == cycles::MillKind::contour_pocket)
-    context_.diagnostics.warning("TRN-511", s.line.span,
-                                 "the way in this pocket with islands is this program's own: the source's control may "
-                                 "go otherwise and clears the same volume",
-                                 "compare with the control where the way matters (RUN-090)");
-  if (leads_by_middle) {
-    context_.diagnostics.warning(
-        "TRN-420", s.line.span,
-        "the way onto the contour and off it is counted from the tool's middle, not from its edge: the source's "
-        "machine "
-        "profile does not give the radius of the tool",
-        "give it with --tools FILE, in the profile's \"tools\" or by --set TOOL_RADIUS=5; the tool plunges nearer to "
-        "the "
-        "contour by its radius");
-  }
-  if (!incremental) end_ = End{writer.u, writer.v, it->second.after};
+  tell_way(r.words, by_middle, s.line, context_.diagnostics);
+  if (!incremental) end_ = End{writer.u, writer.v, r.site.after};
   return Explosion{std::move(writer.blocks), writer.w};
 }
 

@@ -14,6 +14,8 @@
 
 namespace cnctrans::ir::passes {
 
+struct PocketSource;
+
 /// Where the tool stands behind the motion of the block, in program units; nullopt: not known.
 std::optional<double> place_after(const Block& b, const Facts& facts, AxisId axis);
 
@@ -55,6 +57,30 @@ class MillCycles {
     double u = 0, v = 0;
     std::uint64_t after = 0;
   };
+  /// A machining in numbers, and what holds where it runs.
+  struct Reading {
+    cycles::MillNumbers words;
+    cycles::HoleNumbers levels;
+    PlaneAxes axes;
+    double unit = 1;  ///< mm
+    std::optional<RetractPlane> plane;
+    Site site;
+    std::vector<cycles::MillContour> contours;
+  };
+  /// nullopt with a sentence: it can't be told here.
+  [[nodiscard]] std::optional<Reading> read(const HoleCycle& cycle, const Statement& s, const Block& b,
+                                            const Facts& facts, std::optional<double> defined_at,
+                                            std::string* error) const;
+  /// Where the tool stands in the plane when it runs. True: nobody knows; its moves are increments from there.
+  bool stand(const Reading& r, const Block& b, const Facts& facts, cycles::MillContext& context) const;
+  /// Of the tool, mm; 0 where it has no need of one, or (`by_middle`) where its lead is counted from the tool's middle.
+  [[nodiscard]] std::optional<double> radius_of(const Reading& r, bool* by_middle, std::string* error) const;
+  /// What a pocket is to the target's own cycle; nullopt with a sentence: there can be none.
+  [[nodiscard]] std::optional<PocketSource> pocket_source(const HoleCycle& cycle, const Statement& s, const Block& b,
+                                                          const Facts& facts, std::optional<SpindleState> sense,
+                                                          std::string* why) const;
+  /// The block of the cycle; the way to its place stands in it, or before it.
+  Block way_to_pocket(Statement&& to, Body& out) const;
   /// `none`: nobody gives one.
   [[nodiscard]] std::optional<double> radius(const Site& site, double length_unit, std::string* error,
                                              bool* none) const;

@@ -44,21 +44,12 @@ Statement rapid_to(const LineInfo& like, const std::vector<std::pair<AxisId, Val
 
 }  // namespace
 
-std::optional<MillCycles::Similar> MillCycles::similar(const HoleCycle& cycle, const Statement& s, const Block& b,
-                                                       const Facts& facts, std::optional<double> defined_at,
-                                                       std::optional<SpindleState> sense, bool last_resort,
-                                                       std::string* why) const {
-  why->clear();
-  const auto asked = context_.options.cycles;
-  if (asked != CycleWriting::native && !(last_resort && asked == CycleWriting::exact)) return std::nullopt;
-  const auto& native = context_.target.native_cycle;
+std::optional<PocketSource> MillCycles::pocket_source(const HoleCycle& cycle, const Statement& s, const Block& b,
+                                                      const Facts& facts, std::optional<SpindleState> sense,
+                                                      std::string* why) const {
   const auto units = setting_in<Units>(b, facts, Setting::units);
   const auto distance = setting_in<Distance>(b, facts, Setting::distance);
   const auto plane = setting_in<Plane>(b, facts, Setting::plane);
-  const auto it = sites_.find(s.id);
-  if (!native || it == sites_.end()) return std::nullopt;
-  const auto single = single_pockets(cycle, why);
-  if (!single) return std::nullopt;
   if (!units || !plane || distance != Distance::absolute)
     return *why = "plane, units or absolute and incremental are not the same there", std::nullopt;
   const auto w = cycle_axis(cycle, b, facts);
@@ -71,8 +62,6 @@ std::optional<MillCycles::Similar> MillCycles::similar(const HoleCycle& cycle, c
     return *why = "radius compensation is on, or may be", std::nullopt;
   const double unit = *units == Units::inch ? 25.4 : 1;
   PocketSource source;
-  std::optional<double> initial;
-  if (defined_at) initial = *defined_at / unit;
   source.u = place_word(b, facts, axes.u);
   source.v = place_word(b, facts, axes.v);
   const FeedBefore feed = feeds_.at(s, b, facts);
@@ -87,11 +76,31 @@ std::optional<MillCycles::Similar> MillCycles::similar(const HoleCycle& cycle, c
   for (const auto& [name, v] : cycle.mill.words) {
     if (name == cycles::tool_radius_word) r = known_number(v);
   }
-  if (!r) r = radius(it->second, unit, &error, &none);
+  if (!r) r = radius(sites_.at(s.id), unit, &error, &none);
   if (r && *r > 0) source.radius = *r / unit;
   source.sense = sense;
   source.clearance = 1 / unit;
   source.mirrors = mirrors_;
+  return source;
+}
+
+std::optional<MillCycles::Similar> MillCycles::similar(const HoleCycle& cycle, const Statement& s, const Block& b,
+                                                       const Facts& facts, std::optional<double> defined_at,
+                                                       std::optional<SpindleState> sense, bool last_resort,
+                                                       std::string* why) const {
+  why->clear();
+  const auto asked = context_.options.cycles;
+  if (asked != CycleWriting::native && !(last_resort && asked == CycleWriting::exact)) return std::nullopt;
+  const auto& native = context_.target.native_cycle;
+  if (!native || !sites_.contains(s.id)) return std::nullopt;
+  const auto single = single_pockets(cycle, why);
+  if (!single) return std::nullopt;
+  auto source = pocket_source(cycle, s, b, facts, sense, why);
+  if (!source) return std::nullopt;
+  const auto axes = plane_axes(*setting_in<Plane>(b, facts, Setting::plane));
+  const double unit = setting_in<Units>(b, facts, Setting::units) == Units::inch ? 25.4 : 1;
+  const auto initial = defined_at ? std::optional(*defined_at / unit) : std::nullopt;
+  const bool feed_given = !feeds_.at(s, b, facts).none;
   Similar out;
   LineInfo like;
   like.span = s.line.span;
@@ -100,31 +109,23 @@ std::optional<MillCycles::Similar> MillCycles::similar(const HoleCycle& cycle, c
   auto height = height_mm(b, facts, axes.w);
   std::optional<Value> other_feed;
   for (const auto& one : single->pockets) {
-    source.cycle = with_absolute_levels(one, b, facts, initial);
-    source.cycle.axis = axis::none;
-    auto form = similar_pocket(source, native, why);
+    source->cycle = with_absolute_levels(one, b, facts, initial);
+    source->cycle.axis = axis::none;
+    auto form = similar_pocket(*source, native, why);
     if (!form) return std::nullopt;
     const auto retract = form->retract.literal() ? std::optional(form->retract.number * unit) : std::nullopt;
     // To the retract plane first, as the source does: the way across may be free at that height only.
     if (!retract || !height || std::fabs(*retract - *height) > 1e-9)
       out.blocks.push_back(rapid_to(like, {{axes.w, form->retract}}));
+    if (form->feed && !(source->feed && equal(*form->feed, *source->feed))) other_feed = form->feed;
+    if (other_feed && !source->feed && feed_given)
+      return *why = "the feed in force behind it is not known here", std::nullopt;
     Block call;
     if (form->u && form->v) {
-      source.u = form->u;
-      source.v = form->v;
-      Statement to = rapid_to(like, {{axes.u, *form->u}, {axes.v, *form->v}});
-      // Controls that go to the place of a cycle in rapid take it into the block of the cycle.
-      const bool in_one = !context_.target.retract_plane_switch;
-      if (in_one && context_.target_machine.policies.cycle_positioning == machine::CyclePositioning::rapid) {
-        call = std::move(std::get<Block>(to.node));
-        by_itself(call);
-      } else {
-        out.blocks.push_back(std::move(to));
-      }
+      source->u = form->u;
+      source->v = form->v;
+      call = way_to_pocket(rapid_to(like, {{axes.u, *form->u}, {axes.v, *form->v}}), out.blocks);
     }
-    if (form->feed && !(source.feed && equal(*form->feed, *source.feed))) other_feed = form->feed;
-    if (other_feed && !source.feed && !feed.none)
-      return *why = "the feed in force behind it is not known here", std::nullopt;
     if (other_feed) call.actions.push_back(action(SetFeed{*other_feed, false}));
     for (const auto& c : form->cycles) {
       call.actions.push_back(
@@ -135,10 +136,22 @@ std::optional<MillCycles::Similar> MillCycles::similar(const HoleCycle& cycle, c
     height = out.end_height = retract;
     out.differs = form->differs;
   }
-  if (other_feed && source.feed) out.blocks.push_back(make_block(like, action(SetFeed{*source.feed, false})));
+  if (other_feed && source->feed) out.blocks.push_back(make_block(like, action(SetFeed{*source->feed, false})));
   if (single->end) out.blocks.push_back(rapid_to(like, {{axes.u, single->end->first}, {axes.v, single->end->second}}));
   end_.reset();
   return out;
+}
+
+/// Controls that go to the place of a cycle in rapid take it into the block of the cycle.
+Block MillCycles::way_to_pocket(Statement&& to, Body& out) const {
+  const bool in_one = !context_.target.retract_plane_switch;
+  if (!in_one || context_.target_machine.policies.cycle_positioning != machine::CyclePositioning::rapid) {
+    out.push_back(std::move(to));
+    return {};
+  }
+  Block call = std::move(std::get<Block>(to.node));
+  by_itself(call);
+  return call;
 }
 
 }  // namespace cnctrans::ir::passes
