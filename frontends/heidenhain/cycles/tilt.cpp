@@ -206,17 +206,8 @@ bool Lowering::turn_axes(const std::array<ir::Value, 3>& angles, bool rapid, con
   return true;
 }
 
-bool Lowering::plane(const syntax::Statement& s) {
+bool Lowering::tilt_words(const facts::TiltRow& row, TiltWords& out) {
   const auto& words = block_->words;
-  const facts::TiltRow* row = words.empty() ? nullptr : facts::find_tilt(to_upper_ascii(words[0].address));
-  if (row == nullptr) {
-    report_.refuse("HEI-022", s.pos,
-                   "PLANE is followed by SPATIAL, PROJECTED, EULER, VECTOR, POINTS, RELATIV, AXIAL or RESET");
-    return false;
-  }
-  std::map<std::string, ir::Value> given;
-  bool stays = false, turns = false, literal = true, fast = false, other = false, far = false;
-  const Word *back = nullptr, *own_feed = nullptr;
   for (std::size_t i = 1; i < words.size() && !report_.refused(); ++i) {
     std::string address = to_upper_ascii(words[i].address);
     const Word* number = &words[i];
@@ -224,55 +215,49 @@ bool Lowering::plane(const syntax::Statement& s) {
       address += shortest(number->number) + to_upper_ascii(words[i + 1].address);
       number = &words[++i];
     }
-    stays = stays || address == "STAY";
-    turns = turns || address == "TURN" || address == "MOVE";
-    if (stays || turns) {  // what follows says how the axes are moved
+    out.stays = out.stays || address == "STAY";
+    out.turns = out.turns || address == "TURN" || address == "MOVE";
+    if (out.stays || out.turns) {  // what follows says how the axes are moved
       const Word& w = words[i];
       const bool max = i + 1 < words.size() && iequals_ascii(words[i + 1].address, "MAX");
-      if (address == "FMAX" || (address == "F" && max)) fast = true;
-      if (address == "F" && w.has_value) own_feed = &w;
-      if (address == "MB" && w.has_value) back = &w;
-      if (address == "MBMAX" || (address == "MB" && max)) far = true;
-      if (address == "SEQ" && w.number_text == "-") other = true;
+      if (address == "FMAX" || (address == "F" && max)) out.fast = true;
+      if (address == "F" && w.has_value) out.feed = &w;
+      if (address == "MB" && w.has_value) out.back = &w;
+      if (address == "MBMAX" || (address == "MB" && max)) out.far = true;
+      if (address == "SEQ" && w.number_text == "-") out.other = true;
       continue;
     }
-    if (!number->has_value || !facts::in_words(row->words, address)) {
+    if (!number->has_value || !facts::in_words(row.words, address)) {
       report_.refuse("HEI-002", words[i].pos,
-                     "`" + std::string(slice(words[i])) + "` means nothing in PLANE " + std::string(row->word), {},
+                     "`" + std::string(slice(words[i])) + "` means nothing in PLANE " + std::string(row.word), {},
                      "block.word");
       return false;
     }
-    given[address] = value(*number);
-    literal = literal && given[address].literal();
+    out.given[address] = value(*number);
+    out.literal = out.literal && out.given[address].literal();
   }
-  if (report_.refused()) return false;
-  const auto get = [&given](const char* name) {
-    const auto it = given.find(name);
-    return it == given.end() ? ir::Value(0) : it->second;
+  return !report_.refused();
+}
+
+/// The angles about X, Y and Z that make the plane; nullopt with a sentence in `why`.
+std::optional<std::array<ir::Value, 3>> Lowering::tilt_angles(const facts::TiltRow& row, const TiltWords& words,
+                                                              std::string* why) {
+  const auto get = [&words](const char* name) {
+    const auto it = words.given.find(name);
+    return it == words.given.end() ? ir::Value(0) : it->second;
   };
-  const auto refuse = [&](std::string text) {
-    report_.keep("HEI-022", s.pos, std::move(text), "motion.transformation");
-    return false;
-  };
-  if (other && turns) return refuse("SEQ-: where the rotary axes stand then is known to the machine only");
-  if (other) report_.warn("HEI-022", s.pos, "SEQ-: Q120 to Q122 are not set: the machine alone knows these angles");
-  if (!literal && row->form != TiltForm::spatial) return refuse("its angles must be numbers");
   const auto n = [&get](const char* name) { return get(name).number; };
   std::optional<Matrix> m;
-  std::array<ir::Value, 3> angles;
-  switch (row->form) {
-    case TiltForm::spatial: angles = {get("SPA"), get("SPB"), get("SPC")}; break;
-    case TiltForm::axial: angles = {get("A"), get("B"), get("C")}; break;
-    case TiltForm::reset: break;
+  switch (row.form) {
+    case TiltForm::spatial: return {{get("SPA"), get("SPB"), get("SPC")}};
+    case TiltForm::axial: return {{get("A"), get("B"), get("C")}};
+    case TiltForm::reset: return std::array<ir::Value, 3>{};
     case TiltForm::relative: {
       relies(AlongText::tilt);
-      if (!tilt_) {
-        angles = {get("SPA"), get("SPB"), get("SPC")};
-        break;
-      }
+      if (!tilt_) return {{get("SPA"), get("SPB"), get("SPC")}};
       Matrix before = about(0, 0);
       for (const std::size_t axis : {std::size_t{2}, std::size_t{1}, std::size_t{0}}) {
-        if (!tilt_->angles[axis].literal()) return refuse("the plane before it is not known by numbers");
+        if (!tilt_->angles[axis].literal()) return *why = "the plane before it is not known by numbers", std::nullopt;
         before = product(before, about(axis, tilt_->angles[axis].number));
       }
       m = product(before, product(about(2, n("SPC")), product(about(1, n("SPB")), about(0, n("SPA")))));
@@ -283,46 +268,70 @@ bool Lowering::plane(const syntax::Statement& s) {
       break;
     case TiltForm::vector:
       m = frame_of({n("BX"), n("BY"), n("BZ")}, {n("NX"), n("NY"), n("NZ")});
-      if (!m) return refuse("the vectors give no plane");
+      if (!m) return *why = "the vectors give no plane", std::nullopt;
       break;
     case TiltForm::points: {
       const Vector p{n("P1X"), n("P1Y"), n("P1Z")};
       const Vector x{n("P2X") - p[0], n("P2Y") - p[1], n("P2Z") - p[2]};
       const Vector y{n("P3X") - p[0], n("P3Y") - p[1], n("P3Z") - p[2]};
       m = frame_of(x, cross_of(x, y));
-      if (!m) return refuse("the points give no plane");
+      if (!m) return *why = "the points give no plane", std::nullopt;
       break;
     }
     case TiltForm::projected: {
-      report_.warn("HEI-022", s.pos, "the projected angles are taken to turn as SPB and SPA do");
       const Matrix across = about(1, n("PROPR")), along = about(0, n("PROMIN"));  // the traces of the plane
       const Vector x{across[0][0], across[1][0], across[2][0]}, y{along[0][1], along[1][1], along[2][1]};
       m = frame_of(x, cross_of(x, y));
-      if (!m) return refuse("the angles give no plane");
+      if (!m) return *why = "the angles give no plane", std::nullopt;
       m = product(*m, about(2, n("ROT")));
       break;
     }
   }
-  if (m) {
-    constexpr double places = 1e10;
-    const auto column = [&m](std::size_t k) { return std::array<double, 3>{(*m)[0][k], (*m)[1][k], (*m)[2][k]}; };
-    const ir::Turns a = ir::turns_of(column(0), column(1), column(2));
-    for (std::size_t i = 0; i < 3; ++i) angles[i] = ir::Value(without_noise(a[i], places));
+  constexpr double places = 1e10;
+  const auto column = [&m](std::size_t k) { return std::array<double, 3>{(*m)[0][k], (*m)[1][k], (*m)[2][k]}; };
+  const ir::Turns a = ir::turns_of(column(0), column(1), column(2));
+  std::array<ir::Value, 3> angles;
+  for (std::size_t i = 0; i < 3; ++i) angles[i] = ir::Value(without_noise(a[i], places));
+  return angles;
+}
+
+bool Lowering::plane(const syntax::Statement& s) {
+  const auto& words = block_->words;
+  const facts::TiltRow* row = words.empty() ? nullptr : facts::find_tilt(to_upper_ascii(words[0].address));
+  if (row == nullptr) {
+    report_.refuse("HEI-022", s.pos,
+                   "PLANE is followed by SPATIAL, PROJECTED, EULER, VECTOR, POINTS, RELATIV, AXIAL or RESET");
+    return false;
   }
-  const bool by_axes = angles[0].is(0) || angles[1].is(0);
-  if (turns && !by_axes) return refuse("TURN and MOVE position the rotary axes: to where is known to the machine only");
+  TiltWords said;
+  if (!tilt_words(*row, said)) return false;
+  const auto refuse = [&](std::string text) {
+    report_.keep("HEI-022", s.pos, std::move(text), "motion.transformation");
+    return false;
+  };
+  if (said.other && said.turns) return refuse("SEQ-: where the rotary axes stand then is known to the machine only");
+  if (said.other)
+    report_.warn("HEI-022", s.pos, "SEQ-: Q120 to Q122 are not set: the machine alone knows these angles");
+  if (!said.literal && row->form != TiltForm::spatial) return refuse("its angles must be numbers");
+  if (row->form == TiltForm::projected)
+    report_.warn("HEI-022", s.pos, "the projected angles are taken to turn as SPB and SPA do");
+  std::string why;
+  const auto angles = tilt_angles(*row, said, &why);
+  if (!angles) return refuse(why);
+  const bool by_axes = (*angles)[0].is(0) || (*angles)[1].is(0);
+  if (said.turns && !by_axes)
+    return refuse("TURN and MOVE position the rotary axes: to where is known to the machine only");
   const std::size_t before = flat_.items.size();
-  if (turns && (back != nullptr || far)) {  // first the tool goes back
-    retract_far_ = far;
-    if (!far) {
-      retract_ = *back;
-    }
-    rapid_ = fast;
-    retract(fast ? nullptr : own_feed, false);
+  if (said.turns && (said.back != nullptr || said.far)) {  // first the tool goes back
+    retract_far_ = said.far;
+    if (!said.far) retract_ = *said.back;
+    rapid_ = said.fast;
+    retract(said.fast ? nullptr : said.feed, false);
     put(std::exchange(out_, {}));
   }
-  if (!tilt(angles, !other)) return false;
-  if (turns && !turn_axes(angles, fast, own_feed)) return refuse("the machine has no rotary axis for this plane");
+  if (!tilt(*angles, !said.other)) return false;
+  if (said.turns && !turn_axes(*angles, said.fast, said.feed))
+    return refuse("the machine has no rotary axis for this plane");
   if (flat_.items.size() == before && !report_.refused()) put(ir::Block{});
   return !report_.refused();
 }

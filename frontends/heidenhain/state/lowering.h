@@ -17,6 +17,12 @@
 #include "frontends/heidenhain/state/flat.h"
 #include "machine/profile.h"
 
+namespace cnctrans::dialects::heidenhain {
+struct FnRow;
+struct MRow;
+struct TiltRow;
+}  // namespace cnctrans::dialects::heidenhain
+
 namespace cnctrans::frontends::heidenhain {
 
 /// The name of a program file: capitals, without folders and without `.H`.
@@ -110,6 +116,7 @@ class Lowering {
   void put_unit(ir::Units unit);
   bool stop();
   bool assignment(const syntax::Statement& s);
+  ir::ExprPtr function_value(const dialects::heidenhain::FnRow& row, const syntax::Expr& e, bool& fits);
   bool function(const syntax::Statement& s);
   bool jump(const syntax::Statement& s, ir::BinaryOp op);
   bool circle(const syntax::Statement& s, bool four);
@@ -130,6 +137,13 @@ class Lowering {
   bool path_fits(const PathLine& line);
   bool path_motion(const PathLine& line);
   void put_path(const PathLine& line);
+  /// The words of a TOOL CALL.
+  struct ToolWords {
+    const syntax::Word *number = nullptr, *speed = nullptr, *feed = nullptr;
+    std::optional<int> axis;
+    bool oversized = false;
+  };
+  bool tool_words(ToolWords& out);
   bool tool_call(const syntax::Statement& s);
   bool tool_def(const syntax::Statement& s);
   int tool_state();
@@ -170,6 +184,7 @@ class Lowering {
   bool tail(const Word& w);
   bool remark(const Word& w);
   void machine_function(const Word& w);
+  void machine_code(const Word& w, const dialects::heidenhain::MRow& row, std::int32_t code);
   bool feed(const Word& w);
   void end_motion();
   void retract(const Word* own_feed, bool modal = true);
@@ -186,9 +201,32 @@ class Lowering {
   bool cycle_call(const syntax::Statement& s);
   bool pattern_def(const syntax::Statement& s);
   bool figures(Pattern& pattern);
+  using FrameChanges = std::optional<std::vector<ir::FrameChange>>;  ///< nullopt: refused, and said
   void frame_cycle(const CycleDefinition& cycle);
+  FrameChanges datum_shift(const CycleDefinition& cycle);
+  FrameChanges mirror(const CycleDefinition& cycle);
+  FrameChanges rotation(const CycleDefinition& cycle);
+  FrameChanges scale(const CycleDefinition& cycle);
+  FrameChanges axis_scale(const CycleDefinition& cycle);
+  FrameChanges wrong_frame(std::string message);
+  void change_frame(ir::FrameChange c, ir::Block& b);
+  void row_effect(const CycleDefinition& cycle);
+  void working_plane(const CycleDefinition& cycle);
+  void contour_of_labels(const CycleDefinition& cycle);
   void effect(const CycleDefinition& cycle);
   bool pattern_cycle(const CycleDefinition& cycle);
+  /// The words of a PLANE.
+  struct TiltWords {
+    std::map<std::string, ir::Value> given;
+    bool literal = true;                ///< all of them are numbers
+    bool stays = false, turns = false;  ///< what the rotary axes do
+    bool fast = false, far = false;     ///< in rapid; the tool goes back up to the end of travel
+    bool other = false;                 ///< SEQ-
+    const syntax::Word *back = nullptr, *feed = nullptr;
+  };
+  bool tilt_words(const dialects::heidenhain::TiltRow& row, TiltWords& out);
+  std::optional<std::array<ir::Value, 3>> tilt_angles(const dialects::heidenhain::TiltRow& row, const TiltWords& words,
+                                                      std::string* why);
   bool plane(const syntax::Statement& s);
   bool tilt(std::array<ir::Value, 3> angles, bool named = true);
   bool turn_axes(const std::array<ir::Value, 3>& angles, bool rapid, const Word* own_feed);

@@ -351,6 +351,28 @@ bool Lowering::circle(const syntax::Statement& s, bool four) {
   return true;
 }
 
+/// The value that a function gives its parameter; `fits`: the formula has the form of the function.
+ir::ExprPtr Lowering::function_value(const facts::FnRow& row, const Expr& e, bool& fits) {
+  using facts::FnUse;
+  const bool prefix = row.use == FnUse::prefix;
+  if (row.use == FnUse::assign) {
+    fits = e.kind != ExprKind::binary && e.kind != ExprKind::call;
+    return fits ? expression(e) : nullptr;
+  }
+  fits = e.kind == (prefix ? ExprKind::call : ExprKind::binary) && e.text == row.word;
+  if (!fits) return nullptr;
+  ir::ExprPtr a = expression(e.args[0]), b = prefix ? nullptr : expression(e.args[1]);
+  if (!a || (!prefix && !b)) return nullptr;
+  switch (row.use) {
+    case FnUse::prefix: return ir::call(row.function, {std::move(a)});
+    case FnUse::length:
+      return ir::call(ir::Function::sqrt, {ir::binary(ir::BinaryOp::add, ir::call(ir::Function::square, {std::move(a)}),
+                                                      ir::call(ir::Function::square, {std::move(b)}))});
+    case FnUse::angle: return ir::call(ir::Function::arg, {std::move(b), std::move(a)});  // arg(adjacent, opposite)
+    default: return ir::binary(row.op, std::move(a), std::move(b));
+  }
+}
+
 bool Lowering::function(const syntax::Statement& s) {
   const auto* row = facts::fn_row(saturate<std::int64_t>(parse_decimal(s.text).value_or(-1)));
   const auto wrong = [&] {
@@ -359,42 +381,12 @@ bool Lowering::function(const syntax::Statement& s) {
   };
   if (row == nullptr) return wrong();
   using facts::FnUse;
-  const bool sets = s.args.size() == 2 && s.args[0].kind == ExprKind::variable;
-  const Expr* e = sets ? &s.args[1] : nullptr;
-  ir::ExprPtr value;
-  const auto both = [&](const auto& make) {
-    ir::ExprPtr a = expression(e->args[0]), b = expression(e->args[1]);
-    if (a && b) value = make(std::move(a), std::move(b));
-  };
   switch (row->use) {
     case FnUse::assign:
-      if (e == nullptr || e->kind == ExprKind::binary || e->kind == ExprKind::call) return wrong();
-      value = expression(*e);
-      break;
     case FnUse::binary:
-      if (e == nullptr || e->kind != ExprKind::binary || e->text != row->word) return wrong();
-      both([row](ir::ExprPtr a, ir::ExprPtr b) { return ir::binary(row->op, std::move(a), std::move(b)); });
-      break;
-    case FnUse::prefix: {
-      if (e == nullptr || e->kind != ExprKind::call || e->text != row->word) return wrong();
-      ir::ExprPtr x = expression(e->args[0]);
-      if (x) value = ir::call(row->function, {std::move(x)});
-      break;
-    }
+    case FnUse::prefix:
     case FnUse::length:
-      if (e == nullptr || e->kind != ExprKind::binary || e->text != row->word) return wrong();
-      both([](ir::ExprPtr a, ir::ExprPtr b) {
-        return ir::call(ir::Function::sqrt,
-                        {ir::binary(ir::BinaryOp::add, ir::call(ir::Function::square, {std::move(a)}),
-                                    ir::call(ir::Function::square, {std::move(b)}))});
-      });
-      break;
-    case FnUse::angle:
-      if (e == nullptr || e->kind != ExprKind::binary || e->text != row->word) return wrong();
-      both([](ir::ExprPtr a, ir::ExprPtr b) {
-        return ir::call(ir::Function::arg, {std::move(b), std::move(a)});  // arg(adjacent, opposite)
-      });
-      break;
+    case FnUse::angle: break;
     case FnUse::jump:
       if (s.args.empty() || s.args[0].kind != ExprKind::binary || s.args[0].text != row->word) return wrong();
       return jump(s, row->op);
@@ -438,6 +430,9 @@ bool Lowering::function(const syntax::Statement& s) {
       return false;
     }
   }
+  bool fits = s.args.size() == 2 && s.args[0].kind == ExprKind::variable;
+  ir::ExprPtr value = fits ? function_value(*row, s.args[1], fits) : nullptr;
+  if (!fits) return wrong();
   ir::Assign::Item item;
   item.pos = s.pos;
   if (!value || !target(s.args[0], item.target)) return false;

@@ -59,7 +59,6 @@ void Lowering::machine_function(const Word& w) {
     act(w, ir::ModalSet{ir::Setting::feed_mode, static_cast<std::uint8_t>(mode), true, ir::FeedMemory::cleared});
   };
   using facts::MUse;
-  using machine::MMeaning;
   switch (row.use) {
     case MUse::plain:
     case MUse::coolant_too: break;
@@ -122,6 +121,15 @@ void Lowering::machine_function(const Word& w) {
     case MUse::path:
       return report_.keep("HEI-009", w.pos, name + " changes the path in a way that is not carried", "block.word");
   }
+  machine_code(w, row, static_cast<std::int32_t>(code));
+}
+
+/// What the machine does at the code.
+void Lowering::machine_code(const Word& w, const dialects::heidenhain::MRow& row, std::int32_t code) {
+  using facts::MUse;
+  using machine::MMeaning;
+  const auto put_action = [&](ir::ActionData data) { act(w, std::move(data), row.order); };
+  const std::string name = "`" + std::string(slice(w)) + "` (" + std::string(row.title) + ")";
   switch (row.meaning) {
     case MMeaning::stop:
       put_action(ir::SpindleRun{1, ir::SpindleState::off});
@@ -150,7 +158,7 @@ void Lowering::machine_function(const Word& w) {
     case MMeaning::machine_function: break;
   }
   ir::MachineFunction f;
-  f.code = static_cast<std::int32_t>(code);
+  f.code = code;
   put_action(std::move(f));
 }
 

@@ -11,34 +11,30 @@ namespace cnctrans::frontends::heidenhain {
 
 namespace facts = dialects::heidenhain;
 
-/// The tool, its axis (and with it the plane), its speed; F is the feed from here on, and that of FAUTO.
-bool Lowering::tool_call(const syntax::Statement& s) {
-  const Word* number = nullptr;
-  const Word* speed = nullptr;
-  const Word* own_feed = nullptr;
-  std::optional<int> axis;
-  bool oversized = false;
-  for (std::size_t i = 0; i < block_->words.size(); ++i) {
-    Word w = block_->words[i];
+/// What stands beside TOOL CALL; DL and DR become kept words. False: refused.
+bool Lowering::tool_words(ToolWords& out) {
+  const auto& words = block_->words;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    Word w = words[i];
     const auto is = [&](std::string_view a) { return iequals_ascii(w.address, a); };
-    if (is("DR") && w.number_text == "2" && i + 1 < block_->words.size() && block_->words[i + 1].address.empty()) {
+    if (is("DR") && w.number_text == "2" && i + 1 < words.size() && words[i + 1].address.empty()) {
       const WordPos start = w.pos;  // `DR2 +0.1` is read as two words
-      w = block_->words[++i];
+      w = words[++i];
       w.address = "DR";
       w.pos = {start.column, w.pos.column + w.pos.length - start.column};
     }
     const ir::AxisId letter = w.has_value ? ir::axis::none : axis_of(w.address);
-    if (w.address.empty() && number == nullptr) {
-      number = &block_->words[i];
+    if (w.address.empty() && out.number == nullptr) {
+      out.number = &words[i];
     } else if (letter <= ir::axis::w) {
-      axis = letter % 3;
+      out.axis = letter % 3;
     } else if (is("S") && w.has_value) {
-      speed = &block_->words[i];
+      out.speed = &words[i];
     } else if (is("F") && w.has_value) {
-      own_feed = &block_->words[i];
+      out.feed = &words[i];
     } else if (is("DL") || is("DR")) {
       if (w.has_value && !w.is_expression && w.number == 0) continue;
-      oversized = oversized || is("DR");
+      out.oversized = out.oversized || is("DR");
       report_.warn("HEI-015", w.pos,
                    "`" + std::string(slice(w)) + "`: the oversize of the tool is kept as text; it is not in the path");
       act(w, ir::OpaqueWord{slice(w)}, ir::Order::with);
@@ -50,6 +46,14 @@ bool Lowering::tool_call(const syntax::Statement& s) {
       return false;
     }
   }
+  return true;
+}
+
+/// The tool, its axis (and with it the plane), its speed; F is the feed from here on, and that of FAUTO.
+bool Lowering::tool_call(const syntax::Statement& s) {
+  ToolWords said;
+  if (!tool_words(said)) return false;
+  const auto [number, speed, own_feed, axis, oversized] = said;
   if (number != nullptr || !s.args.empty()) {
     const auto known =
         number == nullptr || number->is_expression ? radii_.end() : radii_.find(saturate<std::int64_t>(number->number));
