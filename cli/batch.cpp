@@ -61,6 +61,7 @@ int batch(const Arguments& a) {
   options.again = a.again;
   options.force = a.force;
   options.collect_only = a.collect;
+  options.reports = a.reports;
   if (!a.shard.empty() && !read_shard(a.shard, options))
     return usage_error(a, "--shard wants K/N with K from 1 to N, not '" + a.shard + "'");
 

@@ -111,6 +111,7 @@ CLI::App* add_batch(CLI::App& app, Arguments& a) {
   sub->add_option("--shard", a.shard, "K/N: only every N-th program, from number K on");
   sub->add_option("--timeout", a.timeout, "seconds for one program")->check(CLI::Range(1, 86400));
   sub->add_flag("--again", a.again, "do again what an earlier run has done");
+  sub->add_flag("--reports", a.reports, "a page about each program, linked from the summary");
   sub->add_flag("--collect", a.collect, "only write the summary of what is there");
   sub->footer(
       "Example:\n  cnctrans batch --from fagor --to sinumerik old/ new/ --jobs 4\n"
@@ -175,6 +176,7 @@ CLI::App* add_project(CLI::App& app, Arguments& a) {
   sub->add_option("folder", a.inputs, "folder with cnctrans.json")->required()->type_name("DIR")->expected(1);
   sub->add_flag("--status", a.status, "say what state each program is in; translate nothing");
   sub->add_flag("--again", a.again, "do again what an earlier run has done");
+  sub->add_flag("--reports", a.reports, "a page about each program, linked from project.html");
   sub->add_option("--jobs", a.jobs, "programs side by side")->check(CLI::Range(1, 1024));
   sub->add_option("--timeout", a.timeout, "seconds for one program")->check(CLI::Range(1, 86400));
   sub->add_flag("-q,--quiet", a.quiet, "no summary lines");

@@ -58,7 +58,7 @@ struct Arguments {
   SourcePtr standard_input;                            ///< what stands for the input "-"
   unsigned jobs = 1, timeout = 300;                    ///< batch: processes side by side; seconds for a program
   std::string shard;                                   ///< batch: "K/N"
-  bool again = false, collect = false;
+  bool again = false, collect = false, reports = false;
   unsigned survey_jobs = 0;      ///< survey, names: processes side by side; 0: one a core
   bool status = false;           ///< project: look, translate nothing
   std::string stub;              ///< names: folder of the programs

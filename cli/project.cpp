@@ -17,6 +17,7 @@ int project(const Arguments& a) {
   options.timeout = a.timeout;
   options.again = a.again;
   options.status = a.status;
+  options.reports = a.reports;
   ProgressLine progress(options.folder);
   const auto result = translator::project(options, [&progress](const translator::BatchProgress& p) {
     progress(p.total == 0 ? 1 : static_cast<double>(p.done) / static_cast<double>(p.total));

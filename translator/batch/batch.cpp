@@ -16,6 +16,7 @@
 #include "translator/files/names_file.h"
 #include "translator/files/readable.h"
 #include "translator/folding/unfolding.h"
+#include "translator/report/report.h"
 #include "translator/version.h"
 
 namespace cnctrans::translator {
@@ -63,6 +64,7 @@ std::string job_sum(const BatchOptions& o) {
     text += "|" + names_text(*t.names, t.from, t.to);
   if (!t.tools.empty()) text += "|tools " + t.tools;
   if (!t.origin) text += "|no origin";
+  if (o.reports) text += "|reports";
   text += fmt::format("|proof {} {} {} {} {}", t.verify, t.strict, t.further.skips, t.further.explore,
                       t.further.time ? t.further.time->count() : 0);
   for (const auto& [name, value] : t.run.set) text += "|" + name + "=" + value;
@@ -242,6 +244,7 @@ class Batch {
     const fs::path in(options_.in);
     TranslateOptions t = options_.translate;
     t.strict = t.strict && readable_;
+    t.keep_traces = options_.reports;
     TranslateResult result;
     try {
       result = translate_file((in / program).string(), t);
@@ -268,6 +271,12 @@ class Batch {
     const bool bad = result.held_back && r.status != "no motion";
     std::vector<FileToWrite> files;
     for (const auto& out : result.outputs) files.push_back({bad ? out.name + ".unverified" : out.name, out.bytes});
+    std::string report;
+    if (options_.reports && result.error.empty()) {
+      report = report_html(make_report((in / program).string(), t, result));
+      r.report = report_name;
+      files.push_back({r.report, report});
+    }
     return folder_.write(std::move(r), files);
   }
 

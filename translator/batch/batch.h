@@ -24,6 +24,7 @@ struct BatchOptions {
   /// Stands for the map of names in what a result depends on: a name that is added does not make the others old. Empty:
   /// the names themselves.
   std::string names_key;
+  bool reports = false;       ///< a page about each program, beside its outputs
   bool collect_only = false;  ///< nothing is translated; the summary of what is there is written
 };
 
@@ -37,6 +38,7 @@ struct BatchRecord {
   std::uint64_t lines = 0;  ///< of the source
   std::map<std::string, std::size_t> errors, warnings;  ///< by code
   std::vector<std::string> outputs;                     ///< names below the program's own folder
+  std::string report;                                   ///< likewise, of the page about it; empty: none was asked for
   std::map<std::string, std::string> read;              ///< every file that was read, with a sum of its bytes
   std::string job;                                      ///< sum of the options and the version
 };

@@ -86,7 +86,9 @@ bool BatchFolder::write(BatchRecord record, const std::vector<FileToWrite>& outp
     files.clear();
   }
   record.outputs.clear();
-  for (const auto& f : files) record.outputs.push_back(f.name);
+  for (const auto& f : files) {
+    if (f.name != record.report) record.outputs.push_back(f.name);
+  }
   const std::string text = to_json(record);
   files.push_back({std::string(record_name), text});
   std::set<std::string> names;

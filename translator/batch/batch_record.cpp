@@ -6,10 +6,11 @@
 namespace cnctrans::translator {
 
 std::string to_json(const BatchRecord& r) {
-  const nlohmann::ordered_json j{
+  nlohmann::ordered_json j{
       {"program", r.program}, {"status", r.status}, {"detail", r.detail}, {"max_length", r.max_length},
       {"moves", r.moves},     {"lines", r.lines},   {"errors", r.errors}, {"warnings", r.warnings},
       {"outputs", r.outputs}, {"read", r.read},     {"job", r.job}};
+  if (!r.report.empty()) j["report"] = r.report;
   return j.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -34,6 +35,7 @@ std::optional<BatchRecord> read_record(const std::string& path) {
                     take("max_length", r.max_length) && take("moves", r.moves) && take("lines", r.lines) &&
                     take("errors", r.errors) && take("warnings", r.warnings) && take("outputs", r.outputs) &&
                     take("read", r.read) && take("job", r.job);
+  (void)take("report", r.report);
   return good ? std::optional(std::move(r)) : std::nullopt;
 }
 

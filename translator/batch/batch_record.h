@@ -12,6 +12,8 @@ namespace cnctrans::translator {
 
 /// Name of the file with a program's result, in the folder of its outputs.
 inline constexpr std::string_view record_name = "result.json";
+/// Of the page about the program, beside it.
+inline constexpr std::string_view report_name = "report.html";
 
 std::string to_json(const BatchRecord& r);
 std::optional<BatchRecord> read_record(const std::string& path);

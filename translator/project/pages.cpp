@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <set>
 
 #include "base/counted.h"
 #include "base/markup.h"
@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "translator/files/registry.h"
 #include "translator/project/project.h"
+#include "translator/report/overview.h"
 
 namespace cnctrans::translator {
 
@@ -27,12 +28,6 @@ std::vector<std::string_view> split_lines(std::string_view text) {
   while (take_line(text, l)) lines.push_back(l.text);
   return lines;
 }
-
-constexpr std::string_view project_style =
-    R"(body{font:15px/1.4 sans-serif;margin:1em auto;padding:0 1em;max-width:80em;
-color:#222}table{border-collapse:collapse;margin:.5em 0 1.5em}th,td{border:1px solid #bbb;padding:.2em .6em;
-text-align:left;vertical-align:top;overflow-wrap:anywhere}th{background:#eee}pre{margin:0;white-space:pre-wrap}
-.wide{overflow-x:auto})";
 
 }  // namespace
 
@@ -83,29 +78,25 @@ std::string project_csv(const ProjectResult& r) {
 std::string project_html(const ProjectResult& r, const ProjectConfig& config) {
   const Dialect* from = find_dialect(config.from);
   const Dialect* to = find_dialect(config.to);
-  const std::string title = fmt::format("{} to {}", from->title, to->title);
-  std::string out = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width\"><title>{0}</title><style>{1}</style></head><body>\n<h1>{0}</h1>\n"
-      "<p>{2} of {3}; what loads into the control stands in {4}.</p>\n",
-      html_text(title), project_style, counted(r.programs.size(), "program"), html_text(config.programs),
-      html_text(config.output));
-  std::map<std::string, std::size_t> states;
-  for (const auto& p : r.programs) ++states[p.state];
-  out += "<table><tr><th>state</th><th>programs</th></tr>\n";
-  for (const auto& [state, n] : states) out += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", html_text(state), n);
-  out +=
-      "</table>\n<div class=\"wide\"><table><tr><th>program</th><th>state</th><th>lines</th><th>moves</th>"
-      "<th>outputs</th><th>detail</th></tr>\n";
+  Overview page;
+  page.title = fmt::format("{} to {}", from->title, to->title);
+  page.lead = fmt::format("{} of {}; what loads into the control stands in {}.", counted(r.programs.size(), "program"),
+                          config.programs, config.output);
+  std::set<std::string> states;
+  for (const auto& p : r.programs) states.insert(p.state);
+  page.states.assign(states.begin(), states.end());
+  page.columns = {{"lines", true}, {"moves", true}, {"outputs"}, {"detail"}};
+  page.codes = {{"Errors", {}}, {"Warnings", {}}};
   for (const auto& p : r.programs) {
-    std::string detail = html_text(p.detail);
-    for (const auto& [name, diff] : p.diffs)
-      detail += fmt::format("<details><summary>{}: - as it is, + as it would be</summary><pre>{}</pre></details>",
-                            html_text(name), html_text(diff));
-    out += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                       html_text(p.path), html_text(p.state), p.lines, p.moves, html_text(list_of(p.outputs)), detail);
+    auto& row = page.rows.emplace_back();
+    row = {p.path,   p.state,  {std::to_string(p.lines), std::to_string(p.moves), list_of(p.outputs), p.detail},
+           p.errors, p.report, {}};
+    row.codes.insert(p.warnings.begin(), p.warnings.end());
+    count_codes(p.errors, page.codes[0].second);
+    count_codes(p.warnings, page.codes[1].second);
+    for (const auto& [name, diff] : p.diffs) row.details.emplace_back(name + ": - as it is, + as it would be", diff);
   }
-  return out + "</table></div>\n</body></html>\n";
+  return overview_html(page);
 }
 
 }  // namespace cnctrans::translator

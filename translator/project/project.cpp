@@ -156,6 +156,7 @@ class Project {
     o.timeout = options_.timeout;
     o.again = options_.again || edited_;
     o.names_key = "project";
+    o.reports = options_.reports;
     return o;
   }
 
@@ -293,6 +294,10 @@ class Project {
     for (const auto& [file, sum] : record->read) called_.insert(whole(group.batch.in, file));
     p.lines = record->lines;
     p.moves = record->moves;
+    p.errors = record->errors;
+    p.warnings = record->warnings;
+    if (!record->report.empty())
+      p.report = (made / record->report).lexically_relative(options_.folder).generic_string();
     const fs::path to = group.to / fs::path(program).parent_path();
     WrittenFiles folder(to, options_.status ? WrittenFiles::Use::look : WrittenFiles::Use::write);
     const WrittenFiles::Origin origin = origin_of(group, program);

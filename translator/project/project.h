@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,9 @@ namespace cnctrans::translator {
 struct ProjectOptions {
   std::string folder;  ///< with cnctrans.json
   unsigned jobs = 1, timeout = 300;
-  bool again = false;   ///< what an earlier run has done is done again
-  bool status = false;  ///< nothing is translated: what is there is looked at
+  bool reports = false;  ///< a page about each program
+  bool again = false;    ///< what an earlier run has done is done again
+  bool status = false;   ///< nothing is translated: what is there is looked at
 };
 
 /// A program of the archive.
@@ -27,6 +29,8 @@ struct ProjectProgram {
   std::vector<std::pair<std::string, std::string>> diffs;  ///< of an output that was changed by hand: to a new one
   std::size_t lines = 0;
   std::uint64_t moves = 0;
+  std::map<std::string, std::size_t> errors, warnings;  ///< by code
+  std::string report;                                   ///< of the page about it, below the project's folder
 };
 
 struct ProjectResult {

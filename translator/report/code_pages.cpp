@@ -33,10 +33,12 @@ void each_page(const Use& use) {
   }
 }
 
+constexpr std::string_view dash = " \xE2\x80\x94 ";  // before the title
+
 /// One page may stand for several codes: "CNC-USAGE, CNC-OUTPUT".
 std::vector<std::string> codes_of(std::string_view heading) {
   std::vector<std::string> codes;
-  heading = heading.substr(0, heading.find(" \xE2\x80\x94 "));  // the dash before the title
+  heading = heading.substr(0, heading.find(dash));
   while (!heading.empty()) {
     const auto comma = std::min(heading.find(','), heading.size());
     codes.emplace_back(trim(heading.substr(0, comma)));
@@ -57,6 +59,14 @@ CodePage code_page(std::string_view code) {
     return true;
   });
   return found;
+}
+
+std::string_view code_title(const CodePage& page) {
+  if (const auto at = page.heading.find(dash); at != std::string_view::npos)
+    return page.heading.substr(at + dash.size());
+  auto end = page.text.size();
+  for (const std::string_view stop : {". ", ": ", "; ", " (", "\n"}) end = std::min(end, page.text.find(stop));
+  return page.text.substr(0, end);
 }
 
 std::vector<std::string> documented_codes() {

@@ -18,6 +18,8 @@ struct CodePage {
 };
 /// Capitals or not.
 CodePage code_page(std::string_view code);
+/// What the code means in a few words: the title of its page, or the beginning of its first sentence. Empty: no page.
+std::string_view code_title(const CodePage& page);
 std::vector<std::string> documented_codes();
 
 }  // namespace cnctrans::translator

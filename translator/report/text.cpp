@@ -8,14 +8,14 @@
 
 namespace cnctrans::translator {
 
-namespace {
-
-std::string_view embedded(std::string_view name) {
+std::string_view report_text(std::string_view name) {
   for (std::size_t i = 0; i < report_texts_count; ++i) {
     if (report_texts[i].name == name) return report_texts[i].text;
   }
   return {};
 }
+
+namespace {
 
 /// JSON inside a <script>: nothing in it may end the element.
 std::string script_safe(std::string_view json) {
@@ -112,10 +112,10 @@ std::string report_html(const Report& r) {
   const auto part = [&r](std::string_view mark) -> std::string {
     if (mark == "TITLE") return html_text(to_utf8(r.source_name) + ": " + r.from + " to " + r.to);
     if (mark == "DATA") return script_safe(report_data(r, true));
-    return std::string(embedded(mark));
+    return std::string(report_text(mark));
   };
   std::string page;
-  std::string_view rest = embedded("page");
+  std::string_view rest = report_text("page");
   while (!rest.empty()) {
     const auto open = rest.find("{{"), close = rest.find("}}", open);
     page += rest.substr(0, open);
