@@ -226,7 +226,7 @@ class Structure {
       auto& list = statements_[static_cast<std::size_t>(i)];
       const auto* end = list.empty() ? nullptr : std::get_if<ir::End>(&list.front().node);
       if (ended && end != nullptr && end->text == "END PGM") continue;
-      if (item.kind == ItemKind::end) ended = true;
+      if (item.kind == ItemKind::end && item.statement.line.skip_mask == 0) ended = true;
       for (auto& s : list) routine.body.push_back(std::move(s));
     }
   }

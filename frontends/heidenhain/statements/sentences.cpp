@@ -296,6 +296,11 @@ bool Lowering::label(const syntax::Statement& s) {
   const bool one = block_->words.size() == 1 && block_->words[0].address.empty() && !block_->words[0].is_expression;
   if (!label_name(s.args.empty() ? nullptr : &s.args[0], one ? block_->words.data() : nullptr, probe)) return false;
   const bool ends = probe.number && probe.label == "0";
+  if (ends && line_.skip_mask != 0) {
+    report_.refuse("HEI-010", s.pos, "LBL 0 behind a skip mark: where the subprogram ends would go by the switch",
+                   "write LBL 0 without the mark");
+    return false;
+  }
   if (!ends && probe.number) line_.number = program_.keep(probe.label);
   if (!ends && !probe.number) line_.labels.push_back(program_.keep(probe.label));
   ir::StatementNode node = ends ? ir::StatementNode(ir::Block{}) : ir::StatementNode(ir::Label{});

@@ -118,7 +118,9 @@ int Flow::label(const Item& use) const {
 std::vector<int> Flow::next(int item, bool sub) const {
   const Item& i = flat_.items[static_cast<std::size_t>(item)];
   switch (i.kind) {
-    case ItemKind::end: return {};
+    case ItemKind::end:
+      if (i.statement.line.skip_mask == 0) return {};
+      break;
     case ItemKind::sub_end:
       if (sub) return {};
       break;

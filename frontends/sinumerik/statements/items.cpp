@@ -261,7 +261,7 @@ bool StatementLowering::sort_word(const Block& block, const Word& w, Parts& part
       (c_.symbol(name) != nullptr ||
        (name.size() > 1 && !is_reserved(name) && c_.machine.axis(name) == ir::axis::none))) {
     target.kind = ExprKind::name;
-    if (c_.symbol(name) != nullptr && c_.axis(name) != ir::axis::none)
+    if (c_.symbol(name) != nullptr && c_.machine.axis(name) != ir::axis::none)
       c_.warning("SIN-144", w.pos,
                  name + " is a variable here, and the name of an axis: the word sets the variable and moves nothing",
                  "give the variable another name");
