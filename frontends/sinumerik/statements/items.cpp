@@ -244,9 +244,7 @@ bool StatementLowering::sort_word(const Block& block, const Word& w, Parts& part
                     static_cast<std::uint32_t>(w.number_text.size())};
     return e;
   };
-  Expr target;
-  target.text = name;
-  target.pos = w.pos;
+  Expr target{ExprKind::name, name, 0, {}, w.pos};
   if (w.equals && name == "R" && w.extension >= 0) {
     target.kind = ExprKind::variable;
     Expr index;
@@ -260,7 +258,6 @@ bool StatementLowering::sort_word(const Block& block, const Word& w, Parts& part
   if (w.equals && w.extension < 0 &&
       (c_.symbol(name) != nullptr ||
        (name.size() > 1 && !is_reserved(name) && c_.machine.axis(name) == ir::axis::none))) {
-    target.kind = ExprKind::name;
     if (c_.symbol(name) != nullptr && c_.machine.axis(name) != ir::axis::none)
       c_.warning("SIN-144", w.pos,
                  name + " is a variable here, and the name of an axis: the word sets the variable and moves nothing",
@@ -269,7 +266,6 @@ bool StatementLowering::sort_word(const Block& block, const Word& w, Parts& part
   }
   const std::string whole = w.extension >= 0 ? name + std::to_string(w.extension) : name;
   if (w.equals && w.extension >= 0 && c_.symbol(whole) != nullptr) {  // a variable called F1
-    target.kind = ExprKind::name;
     target.text = whole;
     return assign(target, expression(), w.pos, parts);
   }
