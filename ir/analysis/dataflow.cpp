@@ -213,19 +213,10 @@ class Analysis {
 
   // --- the worklist -------------------------------------------------------------------------------------------------
 
-  Facts power_on_facts() const {
-    Facts f;
-    f.reachable = true;
-    for (std::size_t i = 0; i < setting_count; ++i) f.settings[i] = power_on_.get(static_cast<Setting>(i));
-    f.motion = power_on_.motion;
-    f.work_offset = power_on_.work_offset;
-    return f;
-  }
-
   void start(std::size_t routine, bool at_power_on) {
     Facts f;
     if (at_power_on) {
-      f = power_on_facts();
+      f = facts_at(power_on_);
     } else {
       f.forget();
       if (chooses_spindles_) f.master.reset();
@@ -442,10 +433,14 @@ class Analysis {
     const auto run = [&](std::size_t target, Facts& facts) {
       if (!run_modal(s.id, {target, 0, 0, true}, facts)) return false;
       if (once) return true;
+      const bool another = routines_[target].changes[modal_call_bit];  // another one may run at the next point
+      if (another) facts.forget();
       Facts again = facts;  // to the next point, and once more
       again.modal_call = Facts::in_modal_run;
       apply(s, again, framed_);
-      enter(target, again);
+      for (const auto next : modal_targets_) {
+        if (another || next == target) enter(next, again);
+      }
       return true;
     };
     if (active >= 0) return run(static_cast<std::size_t>(active) - 1, f);

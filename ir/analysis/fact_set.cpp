@@ -140,6 +140,15 @@ void take(Facts& facts, const Facts& from, const FactSet& set) {
   if (set[master_bit]) facts.master = from.master;
 }
 
+Facts facts_at(const ModalState& power_on) {
+  Facts f;
+  f.reachable = true;
+  for (std::size_t i = 0; i < setting_count; ++i) f.settings[i] = power_on.get(static_cast<Setting>(i));
+  f.motion = power_on.motion;
+  f.work_offset = power_on.work_offset;
+  return f;
+}
+
 void note_cycles(const Statement& s, CyclesUsed& cycles) {
   const auto note = [&cycles](const CyclePtr& cycle) {
     const auto* hole = cycle ? std::get_if<HoleCycle>(&cycle->node) : nullptr;

@@ -67,6 +67,8 @@ FactSet given_back(FactSet set, const Facts& before, Facts& f);
 FactSet differing(const Facts& a, const Facts& b);
 /// The facts of `from` that are in `set` replace those of `facts`.
 void take(Facts& facts, const Facts& from, const FactSet& set);
+/// What holds where a program begins.
+Facts facts_at(const ModalState& power_on);
 /// States that agree on nothing: what a statement changes shows in one of them, in each of the three planes.
 std::array<Facts, 4> probes(const CyclesUsed& cycles);
 /// What a statement can change, carried out under any of these states.

@@ -1,12 +1,25 @@
 #include "ir/analysis/modal_runs.h"
 
+#include <algorithm>
+
 #include "ir/analysis/fact_set.h"
 
 namespace cnctrans::ir::detail {
 
+namespace {
+
+/// Axes that move beside the path (POS, POSA) and nothing else: no path motion, which a modal subprogram waits for.
+bool beside_path(const Motion& m) {
+  return !m.coords.empty() && m.centers.empty() && !m.extra &&
+         std::all_of(m.coords.begin(), m.coords.end(),
+                     [](const CoordWord& c) { return c.positioning != Positioning::with_path; });
+}
+
+}  // namespace
+
 bool moves(const Statement& s) {
   const auto* b = std::get_if<Block>(&s.node);
-  return b != nullptr && ((b->has_motion && b->motion.moves()) || has_pattern(*b));
+  return b != nullptr && ((b->has_motion && b->motion.moves() && !beside_path(b->motion)) || has_pattern(*b));
 }
 
 bool may_run_modal_call(const Statement& s) {

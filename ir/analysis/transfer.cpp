@@ -4,6 +4,7 @@
 #include "base/saturate.h"
 #include "ir/analysis/dataflow.h"
 #include "ir/analysis/fact_set.h"
+#include "ir/analysis/modal_runs.h"
 #include "ir/analysis/pattern_ends.h"
 #include "ir/check/missing_features.h"
 #include "ir/cycles/hole.h"
@@ -416,7 +417,7 @@ void apply(const Statement& statement, Facts& facts) {
 void detail::apply(const Statement& statement, Facts& facts, const FrameReach& framed) {
   if (const auto* b = std::get_if<Block>(&statement.node)) {
     Transfer(facts, framed, statement.id).block(*b);
-    if (facts.modal_call_runs() && b->has_motion && b->motion.moves()) facts.forget();
+    if (facts.modal_call_runs() && moves(statement)) facts.forget();
   } else if (const auto* a = std::get_if<Assign>(&statement.node)) {
     assign(*a, facts);
   } else if (const auto* o = std::get_if<Opaque>(&statement.node)) {

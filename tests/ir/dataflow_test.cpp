@@ -342,6 +342,12 @@ TEST(Calls, ModalCallsRunAfterMotions) {
   EXPECT_EQ(k.plane("4"), "xy");
 }
 
+TEST(Calls, ModalCallsWaitForAMoveOfThePath) {
+  const Known k = with_subs("block rapid X 1\nmodal_call call 20\nblock modal X alone 3\nN1 block\n",
+                            "routine sub 20 {\nblock rapid X 0\n}\n");
+  EXPECT_EQ(k.x("1"), "3") << "an axis that is positioned beside the path (840D POS)";
+}
+
 TEST(Calls, ModalCallsOfACountedBlock) {
   const Known k = with_subs("modal_call call 20\nblock distance incremental, rapid Y 10, times R[3]\nN1 block\n",
                             "routine sub 20 {\nblock distance absolute\n}\n");
@@ -352,6 +358,13 @@ TEST(Calls, ModalSubprogramRunsAgainBehindItsOwnRun) {
   const Known k = with_subs("block rapid X 1\nmodal_call call 20\nblock modal Y 10, times 2\n",
                             "routine sub 20 {\nN1 block linear Z 1\n}\n");
   EXPECT_EQ(k.at("1").motion, std::nullopt) << "the second point is reached on a line";
+}
+
+TEST(Calls, ModalSubprogramThatNamesAnotherForTheNextPoint) {
+  const Known k = with_subs("block rapid X 1\nmodal_call call 20\nblock modal Y 10, times 2\nN1 block\n",
+                            "routine sub 20 {\nblock rapid Z 1\nmodal_call call 30\n}\n"
+                            "routine sub 30 {\nblock linear Z 2\n}\n");
+  EXPECT_EQ(k.at("1").motion, std::nullopt) << "20 runs at the first point, 30 at the second one";
 }
 
 TEST(Calls, ReturnToALabelOfTheCaller) {
