@@ -144,7 +144,11 @@ std::optional<machine::Profile> choose_profile(const Dialect& dialect, const std
 std::optional<machine::Profile> choose_target(const Dialect& dialect, const std::string& machine,
                                               const machine::Profile& source, std::string* error) {
   if (!machine.empty()) return named_machine(dialect, machine, error);
-  auto profile = dialects::load_profile(default_machine(dialect, source.kind == machine::Kind::lathe), error);
+  const bool lathe = source.kind == machine::Kind::lathe;
+  auto profile = dialects::load_profile(default_machine(dialect, lathe), error);
+  if (!profile && lathe)
+    *error = std::string(dialect.title) + " has no lathe here, and the program is one of a lathe (" + source.name +
+             "): say --machine where it is a program of a mill, or --target-machine";
   if (!profile) return profile;
   add_axes(*profile, added_axes(source));
   if (profile->tools.empty()) profile->tools = source.tools;

@@ -74,7 +74,8 @@ bool word_at(LineCursor& c, syntax::Block& out) {
   w.address = c.line.substr(from, c.at - from);
   const char next = c.peek();
   if (digit(next) || next == '+' || next == '-' || next == '.') {
-    const bool sign = w.address == "DR" && !digit(c.at + 1 < c.line.size() ? c.line[c.at + 1] : ' ');
+    const bool sign =
+        w.address == "DR" && (next == '+' || next == '-') && !digit(c.at + 1 < c.line.size() ? c.line[c.at + 1] : ' ');
     if (sign) {
       w.number_text = c.line.substr(c.at++, 1);
     } else if (!among(with_value, w.address) || !value_at(c, w)) {
